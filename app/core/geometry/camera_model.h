@@ -1,0 +1,32 @@
+#pragma once
+// JPL's family of camera models behind one type (paper section 3.4).
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <variant>
+
+#include "app/core/geometry/cahv.h"
+#include "app/core/geometry/cahvor.h"
+#include "app/core/geometry/cahvore.h"
+#include "app/core/geometry/optics_status.h"
+#include "app/core/geometry/ray.h"
+
+namespace dottrack::geometry {
+
+using CameraModel = std::variant<Cahv, Cahvor, Cahvore>;
+
+// 3-D to 2-D. p_world in metres; pixel (x, y). With jacobian: d(x, y)/d(X, Y, Z), pixels a metre.
+// Outputs are written only when the status is ok.
+OpticsStatus project(const CameraModel& model, const Eigen::Vector3d& p_world,
+                     Eigen::Vector2d& pixel, ProjectionJacobian* jacobian = nullptr);
+
+// 2-D to 3-D. Outputs are written only when the status is ok.
+OpticsStatus unproject(const CameraModel& model, const Eigen::Vector2d& pixel, Ray& ray,
+                       RayJacobian* jacobian = nullptr);
+
+// The point that distances from the camera are measured from: C, metres, world.
+const Eigen::Vector3d& centre(const CameraModel& model);
+
+}  // namespace dottrack::geometry

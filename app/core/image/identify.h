@@ -1,0 +1,65 @@
+#pragma once
+// Identify: from one image, or a window of it, to its dot candidates (paper section 3.1.2).
+
+#include <cstdint>
+
+#include "app/core/image/region.h"
+#include "app/core/limits.h"
+#include "app/core/rig.h"
+#include "hal/base/image_view.h"
+#include "hal/base/static_vector.h"
+
+namespace dottrack::image {
+
+// Which pixels may belong to a dot.
+struct Band {
+  int intensity_min_dn = 0;
+  int intensity_max_dn = 255;
+  int min_contrast_dn = 0;  // 0: the absolute band alone
+  int background_px = 21;   // odd, 3 to 255
+  core::Polarity polarity = core::Polarity::bright;
+};
+
+// Which regions may be dots, from their size and shape in the image.
+struct RegionGate {
+  double semi_major_min_px = 0.0;
+  double semi_major_max_px = 1e9;
+  double min_axis_ratio = 0.0;  // semi-minor over semi-major
+  double min_fill = 0.0;        // area over the area of the ellipse with the same moments
+  int min_area_px = 2;          // a single pixel is never a dot
+};
+
+struct Window {  // both ends included; clipped to the image
+  int x_min = 0;
+  int y_min = 0;
+  int x_max = 0;
+  int y_max = 0;
+};
+
+using Regions = StaticVector<Region, core::kMaxRegions>;
+
+// Where the candidates of one image went.
+struct IdentifyCounts {
+  std::uint32_t runs = 0;         // horizontal runs of in-band pixels
+  std::uint32_t components = 0;   // connected regions of at least two pixels
+  std::uint32_t rejected_size = 0;
+  std::uint32_t rejected_shape = 0;
+  std::uint32_t accepted = 0;
+  std::uint32_t overflow_runs = 0;     // runs beyond capacity: the rest of the image was not searched
+  std::uint32_t overflow_regions = 0;  // accepted regions beyond capacity: left out
+};
+
+// The scratch memory of identify: one object serves any number of images, one after another.
+// Allocates nothing; about the size that footprint_bytes() says.
+class Identifier {
+ public:
+  // Whole image. Regions come in order of their first pixel, row by row.
+  // An image that is empty or larger than kMaxImageWidth x kMaxImageHeight gives no regions.
+  IdentifyCounts identify(const ImageView& image, const Band& band, const RegionGate& gate,
+                          Regions& regions);
+  // The same inside a window only; the local background still sees the whole image.
+  IdentifyCounts identify(const ImageView& image, const Window& window, const Band& band,
+                          const RegionGate& gate, Regions& regions);
+};
+
+}  // namespace dottrack::image

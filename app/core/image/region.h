@@ -1,0 +1,31 @@
+#pragma once
+// A 4-neighbour-connected set of in-band pixels: what identify finds (paper sections 3.1.2, 3.3).
+
+#include <Eigen/Core>
+#include <cstdint>
+
+namespace dottrack::image {
+
+struct Region {
+  // Centroid weighted by each pixel's contrast to the background (to the nearer end of the band
+  // where there is no local background), pixels.
+  Eigen::Vector2d centroid_px = Eigen::Vector2d::Zero();
+  // Semi-axes of the uniform ellipse with the same second moments, pixels, and the angle of the
+  // major axis from +x towards +y, radians in (-pi/2, pi/2].
+  double semi_major_px = 0.0;
+  double semi_minor_px = 0.0;
+  double angle_rad = 0.0;
+  int area_px = 0;
+  int saturated_px = 0;  // pixels at 255
+  // Bounding box, both ends included.
+  std::int16_t x_min = 0;
+  std::int16_t x_max = 0;
+  std::int16_t y_min = 0;
+  std::int16_t y_max = 0;
+  bool touches_border = false;  // of the image or of the window that was searched
+
+  int width_px() const { return x_max - x_min + 1; }
+  int height_px() const { return y_max - y_min + 1; }
+};
+
+}  // namespace dottrack::image

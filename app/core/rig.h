@@ -1,0 +1,55 @@
+#pragma once
+// What the tracker is told before it starts: its cameras, its target, its tolerances.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+
+#include "app/core/geometry/camera_model.h"
+#include "app/core/limits.h"
+#include "hal/base/static_vector.h"
+
+namespace dottrack::core {
+
+enum class Polarity : std::uint8_t { bright, dark };
+
+struct Camera {
+  geometry::CameraModel model;
+  int width_px = 0;
+  int height_px = 0;
+  double distance_min_m = 0.0;  // how far a dot may be from the camera's centre
+  double distance_max_m = 0.0;
+  int intensity_min_dn = 0;  // how bright a dot's pixels may be, both ends included
+  int intensity_max_dn = 255;
+  int min_contrast_dn = 0;  // > 0: a dot's pixels also differ by this much from the background
+  int background_px = 21;   // odd width of the window whose mean is the background
+  Polarity polarity = Polarity::bright;
+};
+
+struct TargetDot {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // vehicle coordinates
+  double diameter_m = 0.0;
+  std::optional<Eigen::Vector3d> normal;  // unit, vehicle coordinates
+};
+
+struct Target {
+  StaticVector<TargetDot, kMaxDots> dots;
+  bool upright = true;      // the vehicle's z axis never points down
+  double max_step_m = 0.2;  // a dot may not move further between ticks
+};
+
+struct TrackingLimits {
+  double max_rms_residual_m = 0.02;
+  int lost_after_ticks = 5;
+};
+
+struct Rig {
+  StaticVector<Camera, kMaxCameras> cameras;
+  Target target;
+  TrackingLimits limits;
+};
+
+double largest_dot_diameter_m(const Target& target);
+double smallest_dot_diameter_m(const Target& target);
+
+}  // namespace dottrack::core

@@ -1,0 +1,82 @@
+#pragma once
+// Everything the tracker knows after one tick: plain data of fixed size.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+
+#include "app/core/limits.h"
+#include "app/core/reason.h"
+#include "hal/base/camera_set.h"
+#include "hal/base/time.h"
+
+namespace dottrack::core {
+
+struct Pose {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();                  // T_world_vehicle
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();      // body to world, unit
+  // x y z roll pitch yaw: metres and radians, world frame, rotations about the world axes.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  double rms_residual_m = 0.0;  // of the triangulated dots against the target in this pose
+};
+
+// How one camera saw one dot.
+struct DotView {
+  bool used = false;
+  Eigen::Vector2f pixel = Eigen::Vector2f::Zero();
+  float semi_major_px = 0.0F;
+  float semi_minor_px = 0.0F;
+  float angle_rad = 0.0F;
+  float residual_px = 0.0F;  // from the dot's triangulated position, reprojected
+};
+
+struct DotState {
+  bool located = false;  // triangulated from at least two cameras in this tick
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // world
+  double position_sigma_m = 0.0;                         // root of the covariance's trace
+  CameraSet cameras;                                     // that saw it
+  std::array<DotView, kMaxCameras> views{};
+};
+
+// What one camera's image came to in this tick.
+struct CameraTick {
+  bool delivered = false;
+  bool used = false;              // contributes at least one view to the pose
+  std::uint32_t regions = 0;      // accepted by identify
+  std::uint32_t components = 0;   // before the gates
+  bool overflow = false;          // a capacity was reached: some regions were left out
+};
+
+// How many candidates each gate of acquisition left over (paper 3.1.2 to 3.1.5).
+struct AcquisitionCounts {
+  std::uint32_t pairs_tested = 0;
+  std::uint32_t rejected_collinear = 0;
+  std::uint32_t rejected_behind = 0;
+  std::uint32_t rejected_distance = 0;
+  std::uint32_t rejected_miss = 0;
+  std::uint32_t rejected_size = 0;
+  std::uint32_t rejected_reprojection = 0;
+  std::uint32_t pairs_accepted = 0;
+  std::uint32_t finalists = 0;
+  std::uint32_t overflow = 0;  // pairs or finalists beyond capacity
+  std::uint64_t work_units = 0;
+};
+
+struct TickResult {
+  std::uint64_t tick = 0;
+  Time capture_time{};  // middle of the exposure; of the tick's frames, their mean
+  State state = State::acquiring;
+  Reason reason = Reason::no_frames;
+  bool has_pose = false;
+  Pose pose;
+  std::uint32_t reset_count = 0;   // acquisitions so far: a new value is a new lock
+  std::uint32_t ticks_lost = 0;    // consecutive ticks without a pose
+  CameraSet cameras_used;
+  std::uint8_t dots_used = 0;
+  std::array<DotState, kMaxDots> dots{};
+  std::array<CameraTick, kMaxCameras> cameras{};
+  AcquisitionCounts acquisition;
+};
+
+}  // namespace dottrack::core
