@@ -17,10 +17,10 @@ struct CameraEntry {
 };
 
 struct RigConfig {
-  std::string name;
+  std::string name = "rig";
   double frame_rate_hz = 30.0;
   std::vector<CameraEntry> cameras;  // in the order of rig.cameras
-  std::string target_name;
+  std::string target_name = "target";
   core::Rig rig;
 };
 

@@ -1,0 +1,250 @@
+#include "app/config/rig_file.h"
+
+#include <fmt/format.h>
+
+#include <toml++/toml.h>
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "app/config/camera_file.h"
+#include "app/config/complaint.h"
+#include "app/config/table_reader.h"
+#include "app/config/target_file.h"
+#include "app/config/text_file.h"
+
+namespace dottrack::config {
+namespace {
+
+constexpr NumberRule kFrameRate{0.0, 1000.0, "a number of hertz above 0 and up to 1000"};
+constexpr NumberRule kDistance{0.0, 1000.0,
+                               "two numbers of metres, 0 < nearest < farthest <= 1000"};
+constexpr NumberRule kStep{0.0, 100.0, "a number of metres above 0 and up to 100"};
+constexpr NumberRule kResidual{0.0, 10.0, "a number of metres above 0 and up to 10"};
+constexpr IntegerRule kIntensity{0, 255, "two whole numbers, 0 <= darkest <= brightest <= 255"};
+constexpr IntegerRule kContrast{0, 254, "a whole number from 0 to 254"};
+constexpr IntegerRule kBackground{3, 255, "an odd whole number from 3 to 255"};
+constexpr IntegerRule kLostAfter{1, 1'000'000, "a whole number from 1 to 1000000"};
+
+// A camera's name is also the name of a folder and of files.
+bool is_folder_name(std::string_view name) {
+  constexpr std::string_view kAllowed =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+  return !name.empty() && name.find_first_not_of(kAllowed) == std::string_view::npos;
+}
+
+class RigReader {
+ public:
+  explicit RigReader(const std::filesystem::path& path) : path_(path), complaint_(path.string()) {}
+
+  Result<RigConfig> read() {
+    const Result<std::string> text = read_text_file(path_);
+    if (text) {
+      read_text(*text);
+    } else {
+      complaint_.add(0, text.error().message, "a rig file");
+    }
+    if (!complaint_.empty()) return tl::unexpected<Error>(complaint_.first());
+    return std::move(config_);
+  }
+
+ private:
+  void read_text(const std::string& text) {
+    try {
+      read_root(toml::parse(text));
+    } catch (const toml::parse_error& error) {
+      complaint_.add(error.source().begin.line, error.description(), "TOML");
+    }
+  }
+
+  void read_root(const toml::table& root) {
+    TableReader reader(complaint_, root, "the rig file", {"rig", "camera", "target", "tracking"});
+    if (const auto* table = find_table(root, "rig", false)) read_rig(*table);
+    read_cameras(root);
+    if (const auto* table = find_table(root, "target", true)) read_target(*table);
+    if (const auto* table = find_table(root, "tracking", false)) read_tracking(*table);
+    if (complaint_.empty()) load_files();
+  }
+
+  const toml::table* find_table(const toml::table& root, std::string_view key, bool required) {
+    const std::string expected = fmt::format("a table [{}]", key);
+    const toml::node* node = root.get(key);
+    if (node == nullptr) {
+      if (required) complaint_.add(1, fmt::format("no table [{}]", key), expected);
+      return nullptr;
+    }
+    if (!node->is_table()) {
+      complaint_.add(root.find(key)->first.source().begin.line,
+                     fmt::format("{} is {}", key, kind_of(*node)), expected);
+    }
+    return node->as_table();
+  }
+
+  void read_rig(const toml::table& table) {
+    TableReader reader(complaint_, table, "[rig]", {"name", "frame_rate_hz"});
+    config_.name = reader.text("name", config_.name);
+    config_.frame_rate_hz = reader.number("frame_rate_hz", config_.frame_rate_hz, kFrameRate);
+  }
+
+  void read_cameras(const toml::table& root) {
+    constexpr std::string_view kExpected = "2 to 16 tables [[camera]]";
+    const toml::node* node = root.get("camera");
+    if (node == nullptr) return complaint_.add(1, "no table [[camera]]", kExpected);
+    const toml::array* list = node->as_array();
+    if (list == nullptr || !list->is_array_of_tables()) {
+      return complaint_.add(node->source().begin.line, fmt::format("camera is {}", kind_of(*node)),
+                            kExpected);
+    }
+    if (list->size() < 2 || list->size() > kMaxCameras) {
+      const std::size_t last = std::min(list->size() - 1, kMaxCameras);
+      return complaint_.add(list->get(last)->source().begin.line,
+                            fmt::format("{} cameras", list->size()), kExpected);
+    }
+    for (const toml::node& camera : *list) read_camera(*camera.as_table());
+  }
+
+  void read_camera(const toml::table& table) {
+    TableReader reader(complaint_, table, "[[camera]]",
+                       {"name", "model", "device", "distance_m", "intensity_dn", "min_contrast_dn",
+                        "background_px", "polarity"});
+    CameraEntry entry;
+    entry.name = reader.text("name");
+    check_camera_name(reader, entry.name);
+    entry.model_path = beside_rig(reader.text("model"));
+    entry.device = reader.text("device", "");
+    config_.cameras.push_back(std::move(entry));
+    config_.rig.cameras.push_back(read_camera_limits(reader));
+    name_lines_.push_back(reader.line("name"));
+    model_lines_.push_back(reader.line("model"));
+  }
+
+  void check_camera_name(TableReader& reader, const std::string& name) {
+    if (!is_folder_name(name)) {
+      reader.complain("name", in_quotes(name), "a folder's name of letters, digits, - and _");
+    }
+    const auto same = std::find_if(config_.cameras.begin(), config_.cameras.end(),
+                                   [&](const CameraEntry& other) { return other.name == name; });
+    if (same == config_.cameras.end()) return;
+    const auto earlier = name_lines_[static_cast<std::size_t>(same - config_.cameras.begin())];
+    reader.complain("name", fmt::format("{} again, first on line {}", in_quotes(name), earlier),
+                    "a name of its own for every camera");
+  }
+
+  core::Camera read_camera_limits(TableReader& reader) {
+    core::Camera camera;
+    std::tie(camera.distance_min_m, camera.distance_max_m) =
+        reader.number_range("distance_m", kDistance);
+    std::tie(camera.intensity_min_dn, camera.intensity_max_dn) =
+        reader.integer_range("intensity_dn", {0, 255}, kIntensity);
+    camera.min_contrast_dn = reader.integer("min_contrast_dn", 0, kContrast);
+    camera.background_px = reader.integer("background_px", 21, kBackground);
+    if (camera.background_px % 2 == 0) {
+      reader.complain("background_px", std::to_string(camera.background_px), kBackground.expected);
+    }
+    camera.polarity = read_polarity(reader);
+    check_selective(reader, camera);
+    return camera;
+  }
+
+  core::Polarity read_polarity(TableReader& reader) {
+    const std::string polarity = reader.text("polarity", "bright");
+    if (polarity == "dark") return core::Polarity::dark;
+    if (polarity != "bright") reader.complain("polarity", in_quotes(polarity), "bright or dark");
+    return core::Polarity::bright;
+  }
+
+  // With every intensity and no contrast asked for, the whole image would be one region.
+  void check_selective(const TableReader& reader, const core::Camera& camera) {
+    const bool any = camera.intensity_min_dn == 0 && camera.intensity_max_dn == 255;
+    if (!any || camera.min_contrast_dn > 0) return;
+    complaint_.add(reader.line("intensity_dn"), "this camera takes every pixel for a dot's",
+                   "intensity_dn narrower than [0, 255] or min_contrast_dn above 0");
+  }
+
+  void read_target(const toml::table& table) {
+    TableReader reader(complaint_, table, "[target]", {"name", "dots", "upright", "max_step_m"});
+    config_.target_name = reader.text("name", config_.target_name);
+    dots_path_ = beside_rig(reader.text("dots"));
+    dots_line_ = reader.line("dots");
+    config_.rig.target.upright = reader.boolean("upright", true);
+    config_.rig.target.max_step_m = reader.number("max_step_m", 0.2, kStep);
+  }
+
+  void read_tracking(const toml::table& table) {
+    TableReader reader(complaint_, table, "[tracking]", {"max_rms_residual_m", "lost_after_ticks"});
+    auto& limits = config_.rig.limits;
+    limits.max_rms_residual_m =
+        reader.number("max_rms_residual_m", limits.max_rms_residual_m, kResidual);
+    limits.lost_after_ticks =
+        reader.integer("lost_after_ticks", limits.lost_after_ticks, kLostAfter);
+  }
+
+  std::filesystem::path beside_rig(const std::string& name) const {
+    return path_.parent_path() / name;
+  }
+
+  // The other files are opened only when the rig file itself is right.
+  void load_files() {
+    for (std::size_t i = 0; i < config_.cameras.size(); ++i) load_model(i);
+    if (!is_file(dots_path_, "dots", dots_line_, "a target file, relative to the rig file")) return;
+    Result<TargetDots> dots = read_target_file(dots_path_);
+    if (!dots) return complaint_.add(dots.error());
+    config_.rig.target.dots = *dots;
+  }
+
+  void load_model(std::size_t index) {
+    const std::filesystem::path& path = config_.cameras[index].model_path;
+    const std::size_t line = model_lines_[index];
+    if (!is_file(path, "model", line, "a camera model file, relative to the rig file")) return;
+    Result<CameraFile> file = read_camera_file(path);
+    if (!file) return complaint_.add(file.error());
+    if (!file->dimensions) {
+      return complaint_.add(line,
+                            fmt::format("model {} has no Dimensions", in_quotes(path.string())),
+                            "the image size, as in Dimensions = 640 480");
+    }
+    core::Camera& camera = config_.rig.cameras[index];
+    camera.model = file->model;
+    camera.width_px = file->dimensions->columns;
+    camera.height_px = file->dimensions->rows;
+    check_dimensions(camera, path, line);
+  }
+
+  void check_dimensions(const core::Camera& camera, const std::filesystem::path& path,
+                        std::size_t line) {
+    const bool fits = camera.width_px >= 1 && camera.width_px <= core::kMaxImageWidth &&
+                      camera.height_px >= 1 && camera.height_px <= core::kMaxImageHeight;
+    if (fits) return;
+    complaint_.add(line,
+                   fmt::format("model {} is of {} x {} pixels", in_quotes(path.string()),
+                               camera.width_px, camera.height_px),
+                   fmt::format("up to {} x {}", core::kMaxImageWidth, core::kMaxImageHeight));
+  }
+
+  bool is_file(const std::filesystem::path& path, std::string_view key, std::size_t line,
+               std::string_view expected) {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(path, ignored)) return true;
+    complaint_.add(line, fmt::format("{} is {}: no such file", key, in_quotes(path.string())),
+                   expected);
+    return false;
+  }
+
+  std::filesystem::path path_;
+  Complaint complaint_;
+  RigConfig config_;
+  std::vector<std::size_t> name_lines_;
+  std::vector<std::size_t> model_lines_;
+  std::filesystem::path dots_path_;
+  std::size_t dots_line_ = 0;
+};
+
+}  // namespace
+
+Result<RigConfig> load_rig(const std::filesystem::path& path) {
+  return RigReader(path).read();
+}
+
+}  // namespace dottrack::config
