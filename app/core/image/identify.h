@@ -1,7 +1,9 @@
 #pragma once
 // Identify: from one image, or a window of it, to its dot candidates (paper section 3.1.2).
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 
 #include "app/core/image/region.h"
 #include "app/core/limits.h"
@@ -40,19 +42,25 @@ using Regions = StaticVector<Region, core::kMaxRegions>;
 
 // Where the candidates of one image went.
 struct IdentifyCounts {
-  std::uint32_t runs = 0;         // horizontal runs of in-band pixels
-  std::uint32_t components = 0;   // connected regions of at least two pixels
+  std::uint32_t runs = 0;        // horizontal runs of in-band pixels
+  std::uint32_t components = 0;  // connected regions of at least two pixels
   std::uint32_t rejected_size = 0;
   std::uint32_t rejected_shape = 0;
   std::uint32_t accepted = 0;
-  std::uint32_t overflow_runs = 0;     // runs beyond capacity: the rest of the image was not searched
+  std::uint32_t overflow_runs = 0;  // runs beyond capacity: the rest of the image was not searched
   std::uint32_t overflow_regions = 0;  // accepted regions beyond capacity: left out
 };
 
 // The scratch memory of identify: one object serves any number of images, one after another.
-// Allocates nothing; about the size that footprint_bytes() says.
+// All of it is taken at construction. The results do not depend on the processor's SIMD
+// instructions: every decision on a pixel is integer arithmetic.
 class Identifier {
  public:
+  Identifier();
+  ~Identifier();
+  Identifier(const Identifier&) = delete;
+  Identifier& operator=(const Identifier&) = delete;
+
   // Whole image. Regions come in order of their first pixel, row by row.
   // An image that is empty or larger than kMaxImageWidth x kMaxImageHeight gives no regions.
   IdentifyCounts identify(const ImageView& image, const Band& band, const RegionGate& gate,
@@ -60,6 +68,12 @@ class Identifier {
   // The same inside a window only; the local background still sees the whole image.
   IdentifyCounts identify(const ImageView& image, const Window& window, const Band& band,
                           const RegionGate& gate, Regions& regions);
+
+  std::size_t footprint_bytes() const;
+
+ private:
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
 };
 
 }  // namespace dottrack::image

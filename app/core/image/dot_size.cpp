@@ -1,0 +1,33 @@
+#include "app/core/image/dot_size.h"
+
+#include <algorithm>
+
+namespace dottrack::image {
+namespace {
+
+// Bounds on measured over true size, with what a threshold may add or take at the rim.
+// On the real plate images a dot's axes come out 1.2 to 1.45 times their nominal length.
+constexpr double kShrink = 0.6;
+constexpr double kShrinkRim_px = 0.5;
+constexpr double kGrow = 1.5;
+constexpr double kGrowRim_px = 1.0;
+
+}  // namespace
+
+SemiMajorRange expected_semi_major(const DiameterRange& diameter, double range_m,
+                                   const geometry::AngularScale& scale) {
+  return {kShrink * 0.5 * diameter.min_m / range_m * scale.min_px - kShrinkRim_px,
+          kGrow * 0.5 * diameter.max_m / range_m * scale.max_px + kGrowRim_px};
+}
+
+RangeWindow possible_range(const DiameterRange& diameter, double semi_major_px,
+                           const geometry::AngularScale& scale, const RangeWindow& limits) {
+  const double near_m =
+      kShrink * 0.5 * diameter.min_m * scale.min_px / (semi_major_px + kShrinkRim_px);
+  const double rimless_px = semi_major_px - kGrowRim_px;
+  const double far_m =
+      rimless_px > 0.0 ? kGrow * 0.5 * diameter.max_m * scale.max_px / rimless_px : limits.far_m;
+  return {std::max(near_m, limits.near_m), std::min(far_m, limits.far_m)};
+}
+
+}  // namespace dottrack::image

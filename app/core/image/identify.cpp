@@ -1,0 +1,105 @@
+#include "app/core/image/identify.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "app/core/image/band_bitmap.h"
+#include "app/core/image/bitmap.h"
+#include "app/core/image/components.h"
+#include "app/core/image/local_background.h"
+#include "app/core/image/region_moments.h"
+#include "app/core/image/run_scan.h"
+
+namespace dottrack::image {
+
+struct Identifier::Memory {
+  Bitmap bitmap;
+  LocalBackground background;
+  RunList runs;
+  Components components;
+};
+
+Identifier::Identifier() : memory_(std::make_unique<Memory>()) {}
+Identifier::~Identifier() = default;
+
+std::size_t Identifier::footprint_bytes() const {
+  return sizeof(*this) + sizeof(Memory);
+}
+
+namespace {
+
+bool fits(const ImageView& image) {
+  return !image.empty() && image.width_px <= core::kMaxImageWidth &&
+         image.height_px <= core::kMaxImageHeight;
+}
+
+Window clipped(const Window& window, const ImageView& image) {
+  return {std::max(window.x_min, 0), std::max(window.y_min, 0),
+          std::min(window.x_max, image.width_px - 1), std::min(window.y_max, image.height_px - 1)};
+}
+
+bool in_size(const RegionGate& gate, const Region& region) {
+  return region.semi_major_px >= gate.semi_major_min_px &&
+         region.semi_major_px <= gate.semi_major_max_px;
+}
+
+// Area over the area of the ellipse with the same moments: 1 for an ellipse, less for all else.
+double fill(const Region& region) {
+  return region.area_px / (std::numbers::pi * region.semi_major_px * region.semi_minor_px);
+}
+
+bool in_shape(const RegionGate& gate, const Region& region) {
+  return region.semi_minor_px >= gate.min_axis_ratio * region.semi_major_px &&
+         fill(region) >= gate.min_fill;
+}
+
+void count_and_keep(const Region& region, const RegionGate& gate, IdentifyCounts& counts,
+                    Regions& regions) {
+  if (!in_size(gate, region)) {
+    ++counts.rejected_size;
+  } else if (!in_shape(gate, region)) {
+    ++counts.rejected_shape;
+  } else if (try_push_back(regions, region)) {
+    ++counts.accepted;
+  } else {
+    ++counts.overflow_regions;
+  }
+}
+
+}  // namespace
+
+IdentifyCounts Identifier::identify(const ImageView& image, const Band& band,
+                                    const RegionGate& gate, Regions& regions) {
+  return identify(image, {0, 0, image.width_px - 1, image.height_px - 1}, band, gate, regions);
+}
+
+IdentifyCounts Identifier::identify(const ImageView& image, const Window& window, const Band& band,
+                                    const RegionGate& gate, Regions& regions) {
+  regions.clear();
+  if (!fits(image)) return {};
+  Window searched = clipped(window, image);
+  if (searched.x_min > searched.x_max || searched.y_min > searched.y_max) return {};
+  auto& [bitmap, background, runs, components] = *memory_;
+  fill_band_bitmap(image, searched, band, bitmap);
+  if (band.min_contrast_dn > 0) background.keep_contrast(image, searched, band, bitmap);
+  runs.scan(bitmap);
+  components.build(runs);
+  searched.y_max = searched.y_min + runs.rows_searched() - 1;
+
+  IdentifyCounts counts;
+  counts.runs = static_cast<std::uint32_t>(runs.size());
+  counts.overflow_runs = runs.overflow();
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    if (!components.is_root(i)) continue;
+    ++counts.components;
+    if (excludes_size(gate, components[i])) {
+      ++counts.rejected_size;
+      continue;
+    }
+    count_and_keep(measure(image, searched, band, runs, components, components[i]), gate, counts,
+                   regions);
+  }
+  return counts;
+}
+
+}  // namespace dottrack::image
