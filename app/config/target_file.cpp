@@ -138,9 +138,10 @@ class TargetParser {
   std::optional<Eigen::Vector3d> read_normal(const std::vector<std::string_view>& fields) {
     if (fields[5].empty() && fields[6].empty() && fields[7].empty()) return std::nullopt;
     constexpr std::string_view kExpected = "a number: the normal is a unit vector, or left empty";
-    const Eigen::Vector3d normal(read_number(fields[5], "nx", kExpected),
-                                 read_number(fields[6], "ny", kExpected),
-                                 read_number(fields[7], "nz", kExpected));
+    Eigen::Vector3d normal;
+    normal.x() = read_number(fields[5], "nx", kExpected);
+    normal.y() = read_number(fields[6], "ny", kExpected);
+    normal.z() = read_number(fields[7], "nz", kExpected);
     const double length = normal.norm();
     if (!(std::abs(length - 1.0) <= kUnitTolerance)) {
       complain(fmt::format("nx,ny,nz is a vector of length {:.4g}", length),
