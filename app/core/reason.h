@@ -12,7 +12,7 @@ enum class Reason : std::uint8_t {
   none = 0,                  // a pose was found
   no_frames = 1,             // no camera delivered
   too_few_cameras = 2,       // fewer than two cameras delivered a usable image
-  too_few_regions = 3,       // fewer than n regions in every camera but one
+  too_few_regions = 3,       // fewer than two cameras see any region of a dot's size
   too_few_finalists = 4,     // fewer than n dots seen by two cameras (paper 3.1.4)
   no_matching_subset = 5,    // no n finalists look like the target within tolerance (3.1.4)
   upside_down = 6,           // the only match hangs upside down (3.1.4)

@@ -5,7 +5,9 @@
 namespace dottrack::core {
 namespace {
 
-bool smaller(const TargetDot& a, const TargetDot& b) { return a.diameter_m < b.diameter_m; }
+bool smaller(const TargetDot& a, const TargetDot& b) {
+  return a.diameter_m < b.diameter_m;
+}
 
 }  // namespace
 

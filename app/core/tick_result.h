@@ -14,8 +14,8 @@
 namespace dottrack::core {
 
 struct Pose {
-  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();                  // T_world_vehicle
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();      // body to world, unit
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();             // T_world_vehicle
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // body to world, unit
   // x y z roll pitch yaw: metres and radians, world frame, rotations about the world axes.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   double rms_residual_m = 0.0;  // of the triangulated dots against the target in this pose
@@ -42,10 +42,10 @@ struct DotState {
 // What one camera's image came to in this tick.
 struct CameraTick {
   bool delivered = false;
-  bool used = false;              // contributes at least one view to the pose
-  std::uint32_t regions = 0;      // accepted by identify
-  std::uint32_t components = 0;   // before the gates
-  bool overflow = false;          // a capacity was reached: some regions were left out
+  bool used = false;             // contributes at least one view to the pose
+  std::uint32_t regions = 0;     // accepted by identify
+  std::uint32_t components = 0;  // before the gates
+  bool overflow = false;         // a capacity was reached: some regions were left out
 };
 
 // How many candidates each gate of acquisition left over (paper 3.1.2 to 3.1.5).
@@ -70,8 +70,8 @@ struct TickResult {
   Reason reason = Reason::no_frames;
   bool has_pose = false;
   Pose pose;
-  std::uint32_t reset_count = 0;   // acquisitions so far: a new value is a new lock
-  std::uint32_t ticks_lost = 0;    // consecutive ticks without a pose
+  std::uint32_t reset_count = 0;  // acquisitions so far: a new value is a new lock
+  std::uint32_t ticks_lost = 0;   // consecutive ticks without a pose
   CameraSet cameras_used;
   std::uint8_t dots_used = 0;
   std::array<DotState, kMaxDots> dots{};

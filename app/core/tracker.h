@@ -5,19 +5,14 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <span>
 
+#include "app/core/camera_frame.h"
+#include "app/core/image/region.h"
 #include "app/core/rig.h"
 #include "app/core/tick_result.h"
-#include "hal/base/image_view.h"
-#include "hal/base/time.h"
 
 namespace dottrack::core {
-
-struct CameraFrame {
-  bool delivered = false;
-  ImageView image;  // must have the camera's width and height, else it counts as not delivered
-  Time mid_exposure{};
-};
 
 // All memory is taken at construction; step() allocates nothing, throws nothing and its work is
 // bounded. The same frames give the same results, bit for bit.
@@ -30,6 +25,10 @@ class Tracker {
 
   // frames[i] belongs to camera i of the rig. The result stays valid until the next call.
   const TickResult& step(const std::array<CameraFrame, kMaxCameras>& frames);
+
+  // The regions considered in the last tick: all candidates while acquiring, those in the dots'
+  // windows while tracking.
+  std::span<const image::Region> regions(std::size_t camera) const;
 
   // Bytes this tracker occupies, all capacities included.
   std::size_t footprint_bytes() const;

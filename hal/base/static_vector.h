@@ -4,6 +4,7 @@
 
 #include <boost/container/static_vector.hpp>
 #include <cstddef>
+#include <span>
 
 namespace dottrack {
 
@@ -18,6 +19,12 @@ template <class T, std::size_t Capacity>
   if (v.size() == Capacity) return false;
   v.push_back(value);
   return true;
+}
+
+// Boost's iterators are not contiguous in the standard's sense, so a span has to be asked for.
+template <class T, std::size_t Capacity>
+std::span<const T> as_span(const StaticVector<T, Capacity>& v) {
+  return {v.data(), v.size()};
 }
 
 }  // namespace dottrack

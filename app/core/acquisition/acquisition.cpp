@@ -1,0 +1,155 @@
+#include "app/core/acquisition/acquisition.h"
+
+#include <algorithm>
+
+#include "app/core/acquisition/finalists.h"
+#include "app/core/acquisition/match.h"
+
+namespace dottrack::acquisition {
+namespace {
+
+// Work units in one tick; see WorkBudget.
+constexpr std::uint64_t kWorkUnits = 6'000'000;
+
+// A pair's point is looked for among finalists this many largest diameters around it: the depth of
+// a crossover is known less well than its place across the view.
+constexpr double kSearchDiameters = 2.0;
+
+estimation::DiameterRange diameters(const core::Target& target) {
+  return {core::smallest_dot_diameter_m(target), core::largest_dot_diameter_m(target)};
+}
+
+std::size_t cameras_with_sightings(std::span<const CameraView> views) {
+  return static_cast<std::size_t>(std::count_if(
+      views.begin(), views.end(), [](const CameraView& v) { return !v.sightings.empty(); }));
+}
+
+core::Reason reason_of(SelectStatus status) {
+  switch (status) {
+    case SelectStatus::found:
+      return core::Reason::none;
+    case SelectStatus::none:
+      return core::Reason::no_matching_subset;
+    case SelectStatus::only_upside_down:
+      return core::Reason::upside_down;
+    case SelectStatus::work_budget:
+      return core::Reason::work_budget;
+  }
+  return core::Reason::no_matching_subset;
+}
+
+}  // namespace
+
+image::RegionGate acquisition_gate(const core::Camera& camera, const geometry::Optics& optics,
+                                   const core::Target& target) {
+  const estimation::DiameterRange dots = diameters(target);
+  const geometry::AngularScale& scale = optics.extremes();
+  return estimation::dot_gate(
+      {estimation::expected_semi_major(dots, camera.distance_max_m, scale).min_px,
+       estimation::expected_semi_major(dots, camera.distance_min_m, scale).max_px});
+}
+
+struct Acquisition::Memory {
+  std::array<CameraView, kMaxCameras> views;
+  CandidatePairs pairs;
+  Matcher matcher;
+  FinalistMerger merger;
+  StaticVector<DotCandidate, core::kMaxFinalists> candidates;
+  Selector selector;
+};
+
+Acquisition::Acquisition(const core::Rig& rig, std::span<const geometry::Optics> optics)
+    : rig_(&rig),
+      optics_(optics),
+      shape_(make_target_shape(rig.target)),
+      memory_(std::make_unique<Memory>()) {
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) memory_->views[i].camera = &rig.cameras[i];
+}
+
+Acquisition::~Acquisition() = default;
+
+std::size_t Acquisition::footprint_bytes() const {
+  return sizeof(*this) + sizeof(Memory) + Selector::footprint_bytes();
+}
+
+void Acquisition::take_sightings(std::span<const image::Regions* const> regions) {
+  const estimation::DiameterRange dots = diameters(rig_->target);
+  for (std::size_t i = 0; i < rig_->cameras.size(); ++i) {
+    CameraView& view = memory_->views[i];
+    view.sightings.clear();
+    view.origin_offset_m = 0.0;
+    if (regions[i] == nullptr) continue;
+    const Eigen::Vector3d& centre = geometry::centre(view.camera->model);
+    for (std::size_t r = 0; r < regions[i]->size(); ++r) {
+      const image::Region& region = (*regions[i])[r];
+      estimation::Sighting sighting;
+      if (region.touches_border ||
+          !estimation::make_sighting(*view.camera, optics_[i], dots, region, sighting)) {
+        continue;
+      }
+      sighting.region = static_cast<std::uint16_t>(r);
+      view.sightings.push_back(sighting);
+      view.origin_offset_m =
+          std::max(view.origin_offset_m, (sighting.line.ray.origin - centre).norm());
+    }
+  }
+}
+
+void Acquisition::match(core::AcquisitionCounts& counts, WorkBudget& budget) {
+  const std::span<const CameraView> views(memory_->views.data(), rig_->cameras.size());
+  const double largest_m = core::largest_dot_diameter_m(rig_->target);
+  FinalistMerger& merger = memory_->merger;
+  merger.start(kSearchDiameters * largest_m);
+  for (std::size_t a = 0; a < views.size(); ++a) {
+    for (std::size_t b = a + 1; b < views.size() && !budget.exhausted(); ++b) {
+      memory_->pairs.clear();
+      memory_->matcher.match(views, a, b, largest_m, memory_->pairs, counts, budget);
+      for (const CandidatePair& pair : memory_->pairs) {
+        if (budget.exhausted()) break;
+        merger.merge(views, pair, counts, budget);
+      }
+    }
+  }
+  if (!budget.exhausted()) merger.refine(views, budget);
+  counts.finalists = static_cast<std::uint32_t>(merger.finalists().size());
+}
+
+core::Reason Acquisition::select_and_locate(WorkBudget& budget, core::Pose& pose) {
+  const Finalists& finalists = memory_->merger.finalists();
+  auto& candidates = memory_->candidates;
+  candidates.clear();
+  for (const Finalist& f : finalists) candidates.push_back({f.position_m, f.diameter_m});
+  Selection selection;
+  const SelectStatus selected = memory_->selector.select(
+      shape_, as_span(candidates), largest_score(shape_, rig_->limits.max_rms_residual_m), budget,
+      selection);
+  if (selected != SelectStatus::found) return reason_of(selected);
+  StaticVector<estimation::LocatedDot, core::kMaxDots> dots;
+  for (std::size_t k = 0; k < shape_.dots; ++k) {
+    const Finalist& finalist = finalists[selection.assignment[k]];
+    dots.push_back({k, finalist.position_m, finalist.covariance_m2});
+  }
+  return estimation::reason_of(
+      estimation::locate(rig_->target, as_span(dots), rig_->limits.max_rms_residual_m, pose));
+}
+
+AcquisitionResult Acquisition::acquire(std::span<const image::Regions* const> regions) {
+  AcquisitionResult result;
+  WorkBudget budget(kWorkUnits);
+  take_sightings(regions);
+  const std::span<const CameraView> views(memory_->views.data(), rig_->cameras.size());
+  if (cameras_with_sightings(views) >= 2) {
+    match(result.counts, budget);
+    if (budget.exhausted()) {
+      result.reason = core::Reason::work_budget;
+    } else if (result.counts.finalists < shape_.dots) {
+      result.reason = core::Reason::too_few_finalists;
+    } else {
+      result.reason = select_and_locate(budget, result.pose);
+    }
+  }
+  result.counts.work_units = budget.spent();
+  return result;
+}
+
+}  // namespace dottrack::acquisition

@@ -1,0 +1,62 @@
+#pragma once
+// Match, first step: candidate pairs between cameras (paper section 3.1.3).
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "app/core/acquisition/plane_index.h"
+#include "app/core/acquisition/work_budget.h"
+#include "app/core/estimation/sighting.h"
+#include "app/core/rig.h"
+#include "app/core/tick_result.h"
+#include "hal/base/static_vector.h"
+
+namespace dottrack::acquisition {
+
+// One camera's part in an acquisition: its model and what it sees.
+struct CameraView {
+  const core::Camera* camera = nullptr;
+  estimation::Sightings sightings;
+  double origin_offset_m = 0.0;  // furthest that a ray's origin is from the camera's centre
+};
+
+// One sighting in each of two cameras that may be the same dot.
+struct CandidatePair {
+  std::array<std::uint8_t, 2> camera{};
+  std::array<std::uint16_t, 2> sighting{};
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();       // mean point of closest crossover, world
+  std::array<Eigen::Vector2d, 2> pixel{};                  // its projection into each camera
+  std::array<geometry::ProjectionJacobian, 2> jacobian{};  // d(pixel)/d(point)
+};
+
+using CandidatePairs = StaticVector<CandidatePair, 8192>;
+
+// The first gate that refused a pair, in the paper's order.
+enum class PairGate : std::uint8_t {
+  accepted,
+  collinear,
+  behind,
+  distance,      // outside a camera's distance limits
+  miss,          // the lines pass further apart than the largest dot is wide
+  size,          // a region has not the size of a dot at that distance
+  reprojection,  // the crossover does not project into both bounding boxes
+};
+
+PairGate test_pair(const CameraView& a, std::size_t sighting_a, const CameraView& b,
+                   std::size_t sighting_b, double max_miss_m, CandidatePair& pair);
+
+// Appends all accepted pairs between cameras a and b (indices into views), in the order of a's and
+// then b's sightings; counts what every gate refused. Pairs beyond capacity are counted, not kept;
+// stops early when the budget is exhausted.
+class Matcher {
+ public:
+  void match(std::span<const CameraView> views, std::size_t a, std::size_t b, double max_miss_m,
+             CandidatePairs& pairs, core::AcquisitionCounts& counts, WorkBudget& budget);
+
+ private:
+  PlaneIndex index_;
+};
+
+}  // namespace dottrack::acquisition

@@ -1,0 +1,31 @@
+#include "app/core/estimation/sighting.h"
+
+namespace dottrack::estimation {
+namespace {
+
+// Standard deviation that a grey-weighted centroid is trusted to, pixels; the pose's covariance
+// is scaled up by what the residuals show beyond it.
+constexpr double kCentroidSigma_px = 0.1;
+
+}  // namespace
+
+bool make_sighting(const core::Camera& camera, const geometry::Optics& optics,
+                   const DiameterRange& diameter, const image::Region& region, Sighting& sighting) {
+  const geometry::AngularScale& scale = optics.at(region.centroid_px);
+  if (scale.max_px <= 0.0) return false;
+  sighting.window = possible_range(diameter, region.semi_major_px, scale,
+                                   {camera.distance_min_m, camera.distance_max_m});
+  if (sighting.window.empty()) return false;
+  if (geometry::unproject(camera.model, region.centroid_px, sighting.line.ray) !=
+      geometry::OpticsStatus::ok) {
+    return false;
+  }
+  sighting.line.sigma_rad = kCentroidSigma_px / scale.mean_px();
+  sighting.pixel = region.centroid_px;
+  sighting.box_min_px = {region.x_min - 0.5, region.y_min - 0.5};
+  sighting.box_max_px = {region.x_max + 0.5, region.y_max + 0.5};
+  sighting.angular_diameter_rad = 2.0 * region.semi_major_px / scale.mean_px();
+  return true;
+}
+
+}  // namespace dottrack::estimation

@@ -1,0 +1,43 @@
+#pragma once
+// A region as a line of sight: what the geometry needs to know of it.
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "app/core/estimation/dot_size.h"
+#include "app/core/geometry/optics.h"
+#include "app/core/geometry/triangulation.h"
+#include "app/core/image/region.h"
+#include "app/core/limits.h"
+#include "app/core/rig.h"
+#include "hal/base/static_vector.h"
+
+namespace dottrack::estimation {
+
+struct Sighting {
+  geometry::SightLine line;  // world
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  Eigen::Vector2d box_min_px = Eigen::Vector2d::Zero();  // outer edges of the bounding box
+  Eigen::Vector2d box_max_px = Eigen::Vector2d::Zero();
+  RangeWindow window;                 // where a dot of the target would look this size
+  double angular_diameter_rad = 0.0;  // of the semi-major axis, both halves
+  std::uint16_t region = 0;           // index among the camera's regions
+
+  // Inside the bounding box, widened on every side by a part of its size and a pixel count.
+  bool box_contains(const Eigen::Vector2d& p, double widen_part = 0.0,
+                    double widen_px = 0.0) const {
+    const Eigen::Vector2d slack =
+        widen_part * (box_max_px - box_min_px) + Eigen::Vector2d::Constant(widen_px);
+    return (p.array() >= (box_min_px - slack).array()).all() &&
+           (p.array() <= (box_max_px + slack).array()).all();
+  }
+};
+
+using Sightings = StaticVector<Sighting, core::kMaxRegions>;
+
+// The region's line of sight; false when the lens has none there or no dot of the target could
+// look this size within the camera's distance limits.
+bool make_sighting(const core::Camera& camera, const geometry::Optics& optics,
+                   const DiameterRange& diameter, const image::Region& region, Sighting& sighting);
+
+}  // namespace dottrack::estimation

@@ -1,0 +1,49 @@
+#include "app/core/geometry/optics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dottrack::geometry {
+namespace {
+
+// Singular values of d(direction)/d(pixel) are radians a pixel; the scale is their inverse.
+AngularScale scale_at(const CameraModel& model, const Eigen::Vector2d& pixel) {
+  Ray ray;
+  RayJacobian jacobian;
+  if (unproject(model, pixel, ray, &jacobian) != OpticsStatus::ok) return {};
+  const Eigen::Matrix2d gram = jacobian.direction.transpose() * jacobian.direction;
+  const double middle = 0.5 * gram.trace();
+  const double swing = std::hypot(0.5 * (gram(0, 0) - gram(1, 1)), gram(0, 1));
+  if (!(middle - swing > 0.0)) return {};
+  return {1.0 / std::sqrt(middle + swing), 1.0 / std::sqrt(middle - swing)};
+}
+
+}  // namespace
+
+double AngularScale::mean_px() const {
+  return std::sqrt(min_px * max_px);
+}
+
+Optics::Optics(const CameraModel& model, int width_px, int height_px)
+    : cells_per_column_(static_cast<double>(kCells) / width_px),
+      cells_per_row_(static_cast<double>(kCells) / height_px) {
+  for (int i = 0; i < kCells * kCells; ++i) {
+    const double x = (i % kCells + 0.5) / cells_per_column_ - 0.5;
+    const double y = (i / kCells + 0.5) / cells_per_row_ - 0.5;
+    const AngularScale scale = scale_at(model, {x, y});
+    cells_[static_cast<std::size_t>(i)] = scale;
+    if (scale.max_px <= 0.0) continue;
+    extremes_.min_px =
+        extremes_.min_px > 0.0 ? std::min(extremes_.min_px, scale.min_px) : scale.min_px;
+    extremes_.max_px = std::max(extremes_.max_px, scale.max_px);
+  }
+}
+
+const AngularScale& Optics::at(const Eigen::Vector2d& pixel) const {
+  const int column =
+      std::clamp(static_cast<int>((pixel.x() + 0.5) * cells_per_column_), 0, kCells - 1);
+  const int row = std::clamp(static_cast<int>((pixel.y() + 0.5) * cells_per_row_), 0, kCells - 1);
+  return cells_[static_cast<std::size_t>(row * kCells + column)];
+}
+
+}  // namespace dottrack::geometry

@@ -1,0 +1,41 @@
+#pragma once
+// How many pixels a radian spans, anywhere in one camera's image: what sizes are judged by.
+
+#include <Eigen/Core>
+#include <array>
+
+#include "app/core/geometry/camera_model.h"
+
+namespace dottrack::geometry {
+
+// Pixels a radian across and along the direction in which the image is stretched most.
+struct AngularScale {
+  double min_px = 0.0;
+  double max_px = 0.0;
+
+  double mean_px() const;  // geometric mean
+};
+
+// A table over the image, made once at start-up from the model's partial derivatives
+// (paper section 3.4). A lookup costs a few operations.
+class Optics {
+ public:
+  Optics() = default;
+  Optics(const CameraModel& model, int width_px, int height_px);
+
+  // Of the grid cell that holds the pixel; pixels outside the image take the nearest cell.
+  // Zero where the lens sees nothing.
+  const AngularScale& at(const Eigen::Vector2d& pixel) const;
+  // Smallest and largest over the whole image; zero for a camera that sees nothing.
+  const AngularScale& extremes() const { return extremes_; }
+
+ private:
+  static constexpr int kCells = 32;
+
+  std::array<AngularScale, static_cast<std::size_t>(kCells* kCells)> cells_{};
+  AngularScale extremes_;
+  double cells_per_column_ = 0.0;
+  double cells_per_row_ = 0.0;
+};
+
+}  // namespace dottrack::geometry

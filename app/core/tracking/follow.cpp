@@ -1,0 +1,198 @@
+#include "app/core/tracking/follow.h"
+
+#include <cmath>
+
+#include "app/core/estimation/dot_position.h"
+#include "app/core/estimation/dot_size.h"
+#include "app/core/image/band.h"
+
+namespace dottrack::tracking {
+namespace {
+
+using estimation::Sighting;
+
+// The paper's window and gate around a dot's previous place, in dot radii (3.2.2). The rim keeps
+// the blurred edge of a small dot inside its window.
+constexpr double kWindowRadii = 3.0;
+constexpr double kGateRadii = 1.5;
+constexpr double kWindowRim_px = 2.0;
+
+struct Expected {  // where and how large a dot should be seen
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  double radius_px = 0.0;
+  image::RegionGate gate;
+};
+
+bool inside(const core::Camera& camera, const Eigen::Vector2d& pixel) {
+  return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() <= camera.width_px - 0.5 &&
+         pixel.y() <= camera.height_px - 0.5;
+}
+
+// False when the camera cannot see the place: outside its image or its distance range.
+bool expect(const core::Camera& camera, const geometry::Optics& optics, double diameter_m,
+            const Eigen::Vector3d& place_m, Expected& expected) {
+  const double range_m = (place_m - geometry::centre(camera.model)).norm();
+  if (range_m < camera.distance_min_m || range_m > camera.distance_max_m) return false;
+  if (geometry::project(camera.model, place_m, expected.pixel) != geometry::OpticsStatus::ok ||
+      !inside(camera, expected.pixel)) {
+    return false;
+  }
+  const geometry::AngularScale& scale = optics.at(expected.pixel);
+  if (scale.max_px <= 0.0) return false;
+  expected.radius_px = 0.5 * diameter_m / range_m * scale.max_px;
+  expected.gate = estimation::dot_gate(
+      estimation::expected_semi_major({diameter_m, diameter_m}, range_m, scale));
+  return true;
+}
+
+image::Window window_around(const Expected& expected) {
+  const double reach = kWindowRadii * expected.radius_px + kWindowRim_px;
+  return {static_cast<int>(std::floor(expected.pixel.x() - reach)),
+          static_cast<int>(std::floor(expected.pixel.y() - reach)),
+          static_cast<int>(std::ceil(expected.pixel.x() + reach)),
+          static_cast<int>(std::ceil(expected.pixel.y() + reach))};
+}
+
+bool same_region(const image::Region& a, const image::Region& b) {
+  const double reach = 0.5 * (a.semi_minor_px + b.semi_minor_px);
+  return (a.centroid_px - b.centroid_px).squaredNorm() < reach * reach;
+}
+
+core::DotView view_of(const image::Region& region, double residual_px) {
+  return {.used = true,
+          .pixel = region.centroid_px.cast<float>(),
+          .semi_major_px = static_cast<float>(region.semi_major_px),
+          .semi_minor_px = static_cast<float>(region.semi_minor_px),
+          .angle_rad = static_cast<float>(region.angle_rad),
+          .residual_px = static_cast<float>(residual_px)};
+}
+
+}  // namespace
+
+Follower::Follower(const core::Rig& rig, std::span<const geometry::Optics> optics,
+                   image::Identifier& identifier)
+    : rig_(&rig), optics_(optics), identifier_(&identifier) {}
+
+void Follower::predict(const core::Pose& previous) {
+  for (std::size_t dot = 0; dot < rig_->target.dots.size(); ++dot) {
+    predicted_m_[dot] =
+        previous.orientation * rig_->target.dots[dot].position_m + previous.position_m;
+  }
+}
+
+void Follower::find_dot(std::size_t camera, std::size_t dot, const ImageView& image,
+                        image::Regions& considered) {
+  const core::Camera& model = rig_->cameras[camera];
+  Expected expected;
+  if (!expect(model, optics_[camera], rig_->target.dots[dot].diameter_m, predicted_m_[dot],
+              expected)) {
+    return;
+  }
+  identifier_->identify(image, window_around(expected), image::band_of(model), expected.gate,
+                        window_regions_);
+  double closest_px = kGateRadii * expected.radius_px;
+  Found& found = found_[camera][dot];
+  for (const image::Region& region : window_regions_) {
+    static_cast<void>(try_push_back(considered, region));
+    const double distance_px = (region.centroid_px - expected.pixel).norm();
+    if (region.touches_border || distance_px > closest_px) continue;
+    closest_px = distance_px;
+    found = {true, region};
+  }
+}
+
+// No two dots may rest on one region: neither of them is seen by this camera then.
+void Follower::drop_shared_regions(std::size_t camera) {
+  auto& found = found_[camera];
+  std::array<bool, core::kMaxDots> shared{};
+  for (std::size_t i = 0; i < rig_->target.dots.size(); ++i) {
+    for (std::size_t j = i + 1; j < rig_->target.dots.size(); ++j) {
+      if (!found[i].any || !found[j].any || !same_region(found[i].region, found[j].region))
+        continue;
+      shared[i] = shared[j] = true;
+    }
+  }
+  for (std::size_t i = 0; i < rig_->target.dots.size(); ++i) {
+    if (shared[i]) found[i].any = false;
+  }
+}
+
+void Follower::update(std::size_t camera, const ImageView& image, image::Regions& considered) {
+  for (std::size_t dot = 0; dot < rig_->target.dots.size(); ++dot) {
+    find_dot(camera, dot, image, considered);
+  }
+  drop_shared_regions(camera);
+}
+
+void Follower::record_views(std::size_t dot, CameraSet cameras) {
+  core::DotState& state = result_.dots[dot];
+  for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
+    if (!cameras.contains(camera)) continue;
+    const image::Region& region = found_[camera][dot].region;
+    Eigen::Vector2d pixel;
+    geometry::project(rig_->cameras[camera].model, state.position_m, pixel);
+    state.views[camera] = view_of(region, (pixel - region.centroid_px).norm());
+    result_.cameras_used.insert(camera);
+  }
+}
+
+bool Follower::triangulate_dot(std::size_t dot, estimation::LocatedDot& located) {
+  const double diameter_m = rig_->target.dots[dot].diameter_m;
+  std::array<Sighting, kMaxCameras> sightings;
+  estimation::Views views;
+  for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
+    const Found& found = found_[camera][dot];
+    if (!found.any ||
+        !estimation::make_sighting(rig_->cameras[camera], optics_[camera], {diameter_m, diameter_m},
+                                   found.region, sightings[camera])) {
+      continue;
+    }
+    views.push_back({camera, &rig_->cameras[camera], &sightings[camera]});
+  }
+  estimation::DotPosition position;
+  if (!estimation::locate_dot(views, position)) return false;
+  located = {dot, position.position_m, position.covariance_m2};
+  core::DotState& state = result_.dots[dot];
+  state.located = true;
+  state.position_m = position.position_m;
+  state.position_sigma_m = std::sqrt(position.covariance_m2.trace());
+  state.cameras = position.cameras;
+  record_views(dot, position.cameras);
+  return true;
+}
+
+void Follower::triangulate(LocatedDots& located) {
+  for (std::size_t dot = 0; dot < rig_->target.dots.size(); ++dot) {
+    estimation::LocatedDot position;
+    if (triangulate_dot(dot, position)) located.push_back(position);
+  }
+  result_.dots_used = static_cast<std::uint8_t>(located.size());
+}
+
+core::Reason Follower::locate(const LocatedDots& located) {
+  for (const estimation::LocatedDot& dot : located) {
+    if ((dot.position_m - predicted_m_[dot.dot]).norm() > rig_->target.max_step_m) {
+      return core::Reason::step_too_large;
+    }
+  }
+  return estimation::reason_of(estimation::locate(rig_->target, as_span(located),
+                                                  rig_->limits.max_rms_residual_m, result_.pose));
+}
+
+const FollowResult& Follower::follow(std::span<const core::CameraFrame> frames,
+                                     const core::Pose& previous,
+                                     std::span<image::Regions* const> regions) {
+  result_ = FollowResult{};
+  found_ = {};
+  predict(previous);
+  for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
+    regions[camera]->clear();
+    if (frames[camera].delivered) update(camera, frames[camera].image, *regions[camera]);
+  }
+  LocatedDots located;
+  triangulate(located);
+  result_.reason = locate(located);
+  return result_;
+}
+
+}  // namespace dottrack::tracking

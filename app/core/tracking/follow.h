@@ -1,0 +1,65 @@
+#pragma once
+// Tracking: one cycle from the target's previous pose to its next (paper section 3.2).
+
+#include <array>
+#include <span>
+
+#include "app/core/camera_frame.h"
+#include "app/core/estimation/locate.h"
+#include "app/core/geometry/optics.h"
+#include "app/core/image/identify.h"
+#include "app/core/rig.h"
+#include "app/core/tick_result.h"
+
+namespace dottrack::tracking {
+
+// What a cycle found, beside the pose: filled as far as the cycle came.
+struct FollowResult {
+  core::Reason reason = core::Reason::too_few_dots;  // none: the target was followed
+  core::Pose pose;                                   // when followed
+  std::array<core::DotState, core::kMaxDots> dots{};
+  CameraSet cameras_used;
+  std::uint8_t dots_used = 0;
+};
+
+// Follows the target from frame to frame. The caller keeps the pose; nothing is remembered here.
+class Follower {
+ public:
+  // The rig, the optics and the identifier must outlive the object.
+  Follower(const core::Rig& rig, std::span<const geometry::Optics> optics,
+           image::Identifier& identifier);
+
+  // Looks around each dot of the previous pose in every camera that can see it (3.2.2),
+  // triangulates each dot seen by two or more (3.2.3) and locates the vehicle from three or more
+  // (3.2.4). frames[i].image is not looked at unless delivered. regions[i] receives the regions
+  // considered. A dot may move max_step_m since the previous pose.
+  const FollowResult& follow(std::span<const core::CameraFrame> frames, const core::Pose& previous,
+                             std::span<image::Regions* const> regions);
+
+ private:
+  struct Found {  // the region chosen for one dot in one camera
+    bool any = false;
+    image::Region region;
+  };
+  using LocatedDots = StaticVector<estimation::LocatedDot, core::kMaxDots>;
+
+  void predict(const core::Pose& previous);
+  void update(std::size_t camera, const ImageView& image, image::Regions& considered);
+  void find_dot(std::size_t camera, std::size_t dot, const ImageView& image,
+                image::Regions& considered);
+  void drop_shared_regions(std::size_t camera);
+  void triangulate(LocatedDots& located);
+  bool triangulate_dot(std::size_t dot, estimation::LocatedDot& located);
+  void record_views(std::size_t dot, CameraSet cameras);
+  core::Reason locate(const LocatedDots& located);
+
+  const core::Rig* rig_;
+  std::span<const geometry::Optics> optics_;
+  image::Identifier* identifier_;
+  std::array<Eigen::Vector3d, core::kMaxDots> predicted_m_{};
+  std::array<std::array<Found, core::kMaxDots>, kMaxCameras> found_{};
+  image::Regions window_regions_;
+  FollowResult result_;
+};
+
+}  // namespace dottrack::tracking
