@@ -15,12 +15,24 @@ function(dottrack_library name)
   add_library(dottrack::${name} ALIAS dottrack_${name})
 endfunction()
 
-# dottrack_test(NAME SOURCES file... [USES target...]): one GoogleTest program, registered test by test.
+# dottrack_test(NAME SOURCES file... [USES target...] [LABELS label...]): one GoogleTest program,
+# registered test by test. The target tests_LABEL builds all programs of that label; the label
+# `threads` is for tests that start threads and so run under the thread sanitizer too.
 function(dottrack_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;USES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;USES;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE ${ARG_USES} GTest::gmock GTest::gtest_main dottrack_warnings)
   target_compile_definitions(${name} PRIVATE DOTTRACK_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  set(properties TIMEOUT 600)
+  if(ARG_LABELS)
+    list(APPEND properties LABELS "${ARG_LABELS}")
+  endif()
+  gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
+  foreach(label ${ARG_LABELS})
+    if(NOT TARGET tests_${label})
+      add_custom_target(tests_${label})
+    endif()
+    add_dependencies(tests_${label} ${name})
+  endforeach()
 endfunction()
