@@ -26,6 +26,8 @@ constexpr double kInternalTolerance = 1e-3;  // of the number and the scale
 constexpr double kThetaTolerance_rad = 1e-3;
 constexpr double kSymmetryTolerance = 1e-6;  // of the larger of two mirrored elements
 
+constexpr std::array<std::string_view, 7> kVectors = {"C", "A", "H", "V", "O", "R", "E"};
+
 enum class Kind { cahv, cahvor, cahvore };
 
 std::string_view name_of(Kind kind) {
@@ -80,8 +82,10 @@ class CameraParser {
   void read(CameraFile& file) {
     file.comment = lines_.comment;
     const Declared declared = read_declared();
-    if (!complaint_.empty()) return;
-    require_keys(declared.kind);
+    for (const std::string_view key : kVectors) {
+      if (lines_.find(key) != nullptr) read_vector(key);
+    }
+    if (complaint_.empty()) require_keys(declared.kind);
     file.dimensions = read_dimensions();
     if (complaint_.empty()) file.model = read_model(declared);
     if (complaint_.empty()) check_linear_part(linear_part(file.model));
@@ -128,7 +132,6 @@ class CameraParser {
   }
 
   void require_keys(Kind kind) {
-    constexpr std::array<std::string_view, 7> kVectors = {"C", "A", "H", "V", "O", "R", "E"};
     const std::size_t wanted = kind == Kind::cahv ? 4 : kind == Kind::cahvor ? 6 : 7;
     const CameraItem* model = lines_.find("Model");
     for (std::size_t i = 0; i < kVectors.size(); ++i) {

@@ -12,13 +12,17 @@ OpticsStatus project(const Cahv& model, const Eigen::Vector3d& p_world, Eigen::V
   const Eigen::Vector3d d = p_world - model.c;
   const double range = d.dot(model.a);
   if (!clearly_in_front(range, d.squaredNorm())) return refuse_point(d, OpticsStatus::behind);
-  const double x = d.dot(model.h) / range;
-  const double y = d.dot(model.v) / range;
+  const double column = d.dot(model.h);
+  const double row = d.dot(model.v);
+  const double x = column / range;
+  const double y = row / range;
   if (!std::isfinite(x + y)) return OpticsStatus::not_finite;
   pixel = {x, y};
   if (jacobian != nullptr) {
-    jacobian->row(0) = (model.h - x * model.a).transpose() / range;
-    jacobian->row(1) = (model.v - y * model.a).transpose() / range;
+    // Before the division, so that what is zero by symmetry comes out as zero.
+    const double scale = 1.0 / (range * range);
+    jacobian->row(0) = scale * (range * model.h - column * model.a).transpose();
+    jacobian->row(1) = scale * (range * model.v - row * model.a).transpose();
   }
   return OpticsStatus::ok;
 }

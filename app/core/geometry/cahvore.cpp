@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kLinearityZero = 1e-15;  // |L| up to this is a fish-eye
 constexpr double kOnAxisTangent = 1e-12;  // so close to the axis that the direction across is noise
-constexpr double kLastStep_rad = 1e-9;    // Newton squares it: under double precision
+constexpr double kNearAxisTangent = 1e-8;  // so close that a ray is as long as O is
+constexpr double kLastStep_rad = 1e-9;     // Newton squares it: under double precision
 constexpr int kMostSteps = 50;
 
 struct ValueSlope {
@@ -226,6 +227,12 @@ Bearing bearing(const Undistorted& f) {
   return {sine, cosine, f.theta.slope * f.chi_slope / f.split.zeta, Eigen::Vector3d::Zero()};
 }
 
+// Where |O| is not quite 1 lambda has a part along O, and on the axis it has no other.
+Eigen::Vector3d across(const Cahvore& m, const Undistorted& f) {
+  if (f.tangent > kNearAxisTangent) return f.split.lambda;
+  return f.split.lambda - (f.split.lambda.dot(m.o) / m.o.squaredNorm()) * m.o;
+}
+
 void fill_jacobian(const Cahvore& m, const Undistorted& f, const Bearing& b, RayJacobian& out) {
   const ValueSlope shift = pupil_shift(f.theta.value);
   const ValueSlope e = pupil(m.e, f.theta.value);
@@ -253,7 +260,7 @@ OpticsStatus unproject(const Cahvore& model, const Eigen::Vector2d& pixel, Ray& 
   const Bearing b = bearing(f);
   const double shift = pupil_shift(f.theta.value).value * pupil(model.e, f.theta.value).value;
   const Eigen::Vector3d origin = model.c + shift * model.o;
-  const Eigen::Vector3d direction = b.cosine * model.o + b.ratio * f.split.lambda;
+  const Eigen::Vector3d direction = b.cosine * model.o + b.ratio * across(model, f);
   if (!(origin + direction).allFinite()) return OpticsStatus::not_finite;
   ray.origin = origin;
   ray.direction = direction;

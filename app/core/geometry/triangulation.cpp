@@ -1,5 +1,6 @@
 #include "app/core/geometry/triangulation.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
 
