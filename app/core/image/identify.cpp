@@ -50,7 +50,7 @@ double fill(const Region& region) {
 
 bool in_shape(const RegionGate& gate, const Region& region) {
   return region.semi_minor_px >= gate.min_axis_ratio * region.semi_major_px &&
-         fill(region) >= gate.min_fill;
+         fill(region) >= gate.min_fill && region.core_contrast_dn >= gate.min_core_contrast_dn;
 }
 
 void count_and_keep(const Region& region, const RegionGate& gate, IdentifyCounts& counts,

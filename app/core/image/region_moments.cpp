@@ -83,6 +83,23 @@ void set_ellipse(Region& region, const BinarySums& sums) {
   region.angle_rad = 0.5 * std::atan2(xy, half_difference);
 }
 
+// See Region::core_contrast_dn; at the image's edge, of the pixels that there are.
+double core_contrast(const ImageView& image, const Eigen::Vector2d& centroid, int faintest_dn,
+                     core::Polarity polarity) {
+  const int x = static_cast<int>(centroid.x() + 0.5);
+  const int y = static_cast<int>(centroid.y() + 0.5);
+  int sum = 0;
+  int count = 0;
+  for (int j = std::max(y - 1, 0); j <= std::min(y + 1, image.height_px - 1); ++j) {
+    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, image.width_px - 1); ++i) {
+      sum += image.at(i, j);
+      ++count;
+    }
+  }
+  const double excess = static_cast<double>(sum) / count - faintest_dn;
+  return polarity == core::Polarity::bright ? excess : -excess;
+}
+
 bool touches_border(const Component& c, const Window& window, const ImageView&) {
   return c.x_min == 0 || c.y_min == 0 || c.x_max == window.x_max - window.x_min ||
          c.y_max == window.y_max - window.y_min;
@@ -129,6 +146,9 @@ Region measure(const ImageView& image, const Window& window, const Band& band, c
   region.touches_border = touches_border(component, window, image);
   region.centroid_px = Eigen::Vector2d(region.x_min, region.y_min) +
                        weighted_centroid(grey, binary, region.area_px, band);
+  const bool bright = band.polarity == core::Polarity::bright;
+  region.core_contrast_dn = core_contrast(
+      image, region.centroid_px, bright ? grey.darkest : grey.brightest, band.polarity);
   set_ellipse(region, binary);
   return region;
 }
