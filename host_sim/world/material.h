@@ -1,0 +1,28 @@
+#pragma once
+// How much light a surface gives back, and where.
+
+#include <Eigen/Core>
+#include <cstdint>
+
+namespace dottrack::host_sim {
+
+enum class Pattern : std::uint8_t {
+  plain,
+  mottled,  // stone: patches of 2 to 20 cm
+  cells,    // a solar panel: dark cells with thin brighter seams
+  planks,   // boards along x or y, 14 cm
+  stripes,  // warning tape, 12 cm
+};
+
+struct Material {
+  double albedo = 0.5;  // 0 to 1
+  Pattern pattern = Pattern::plain;
+  double gloss = 0.0;  // strength of the lamps' reflections
+  std::uint64_t seed = 0;
+};
+
+// p_body: the point in the coordinates of the object's body; footprint_m: a pixel's width there,
+// over which thin lines are averaged.
+double albedo_at(const Material& material, const Eigen::Vector3d& p_body, double footprint_m);
+
+}  // namespace dottrack::host_sim
