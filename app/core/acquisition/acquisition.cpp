@@ -45,8 +45,8 @@ image::RegionGate acquisition_gate(const core::Camera& camera, const geometry::O
   const estimation::DiameterRange dots = diameters(target);
   const geometry::AngularScale& scale = optics.extremes();
   return estimation::dot_gate(
-      {estimation::expected_semi_major(dots, camera.distance_max_m, scale).min_px,
-       estimation::expected_semi_major(dots, camera.distance_min_m, scale).max_px});
+      camera, {estimation::expected_semi_major(dots, camera.distance_max_m, scale).min_px,
+               estimation::expected_semi_major(dots, camera.distance_min_m, scale).max_px});
 }
 
 struct Acquisition::Memory {

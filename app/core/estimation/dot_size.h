@@ -4,6 +4,7 @@
 
 #include "app/core/geometry/optics.h"
 #include "app/core/image/identify.h"
+#include "app/core/rig.h"
 
 namespace dottrack::estimation {
 
@@ -30,8 +31,8 @@ struct RangeWindow {
   bool empty() const { return !(near_m <= far_m); }
 };
 
-// A tilted disc keeps its full diameter along its semi-major axis; blur and the threshold make it
-// look up to half as large again plus a pixel, a dim rim or partial fill smaller.
+// A tilted disc keeps its full diameter along its semi-major axis; blur and a low threshold make it
+// look up to half as large again plus a pixel, a dim rim up to a quarter smaller.
 SemiMajorRange expected_semi_major(const DiameterRange& diameter, double range_m,
                                    const geometry::AngularScale& scale);
 
@@ -39,7 +40,7 @@ SemiMajorRange expected_semi_major(const DiameterRange& diameter, double range_m
 RangeWindow possible_range(const DiameterRange& diameter, double semi_major_px,
                            const geometry::AngularScale& scale, const RangeWindow& limits);
 
-// The gate for regions of that size that have the shape of a disc seen at an angle.
-image::RegionGate dot_gate(const SemiMajorRange& size);
+// The gate for a camera's regions of that size that look like a disc seen at an angle.
+image::RegionGate dot_gate(const core::Camera& camera, const SemiMajorRange& size);
 
 }  // namespace dottrack::estimation

@@ -19,6 +19,8 @@ using Matrix36d = Eigen::Matrix<double, 3, 6>;
 // as this many degrees of freedom.
 constexpr double kPriorFreedom = 6.0;
 
+constexpr int kWeightedSteps = 3;
+
 Matrix3d cross_matrix(const Vector3d& v) {
   Matrix3d m;
   m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
@@ -32,30 +34,56 @@ Matrix36d point_jacobian(const geometry::RigidMotion& motion, const Vector3d& bo
   return j;
 }
 
-// How much larger than the dots' covariances their residuals are: at least 1.
-double variance_factor(const core::Target& target, std::span<const LocatedDot> dots,
-                       const geometry::RigidMotion& motion) {
-  double chi2 = 0.0;
+struct NormalEquations {
+  Matrix6d information = Matrix6d::Zero();
+  Eigen::Matrix<double, 6, 1> gradient = Eigen::Matrix<double, 6, 1>::Zero();
+  double chi2 = 0.0;  // sum of the squared residuals, each in its dot's own standard deviations
+};
+
+NormalEquations linearise(const core::Target& target, std::span<const LocatedDot> dots,
+                          const geometry::RigidMotion& motion) {
+  NormalEquations sum;
   for (const LocatedDot& dot : dots) {
-    const Vector3d error = dot.position_m - motion * target.dots[dot.dot].position_m;
-    chi2 += error.dot(dot.covariance_m2.ldlt().solve(error));
+    const Vector3d& body = target.dots[dot.dot].position_m;
+    const Matrix36d j = point_jacobian(motion, body);
+    const Matrix3d weight = dot.covariance_m2.inverse();
+    const Vector3d error = dot.position_m - motion * body;
+    sum.information += j.transpose() * weight * j;
+    sum.gradient += j.transpose() * weight * error;
+    sum.chi2 += error.dot(weight * error);
   }
-  const double freedom = 3.0 * static_cast<double>(dots.size()) - 6.0;
-  return std::max(1.0, (kPriorFreedom + chi2) / (kPriorFreedom + freedom));
+  return sum;
 }
 
-// Covariance of the unweighted least-squares pose whose points have the given covariances.
-Matrix6d propagate(const core::Target& target, std::span<const LocatedDot> dots,
-                   const geometry::RigidMotion& motion) {
-  Matrix6d normal = Matrix6d::Zero();
-  Matrix6d middle = Matrix6d::Zero();
-  for (const LocatedDot& dot : dots) {
-    const Matrix36d j = point_jacobian(motion, target.dots[dot.dot].position_m);
-    normal += j.transpose() * j;
-    middle += j.transpose() * dot.covariance_m2 * j;
+// A small step: translation, then a rotation about the world axes through the vehicle's origin.
+geometry::RigidMotion stepped(const geometry::RigidMotion& motion,
+                              const Eigen::Matrix<double, 6, 1>& step) {
+  const Vector3d turn = step.tail<3>();
+  const double angle = turn.norm();
+  geometry::RigidMotion next;
+  next.translation_m = motion.translation_m + step.head<3>();
+  next.rotation = motion.rotation;
+  if (angle > 0.0) next.rotation = Eigen::AngleAxisd(angle, turn / angle) * motion.rotation;
+  next.rotation.normalize();
+  return next;
+}
+
+// The quaternion method treats every dot and axis alike. Crossed rays know a dot's depth less well
+// than its place across the view: a few Gauss-Newton steps weigh each by its covariance.
+geometry::RigidMotion weigh(const core::Target& target, std::span<const LocatedDot> dots,
+                            geometry::RigidMotion motion) {
+  for (int i = 0; i < kWeightedSteps; ++i) {
+    const NormalEquations normal = linearise(target, dots, motion);
+    motion = stepped(motion, normal.information.ldlt().solve(normal.gradient));
   }
-  const Matrix6d inverse = normal.ldlt().solve(Matrix6d::Identity());
-  return variance_factor(target, dots, motion) * (inverse * middle * inverse.transpose());
+  return motion;
+}
+
+// The inverse information, scaled up where the residuals are larger than the dots' covariances say.
+Matrix6d covariance_of(const NormalEquations& normal, std::size_t dots) {
+  const double freedom = 3.0 * static_cast<double>(dots) - 6.0;
+  const double factor = std::max(1.0, (kPriorFreedom + normal.chi2) / (kPriorFreedom + freedom));
+  return factor * normal.information.ldlt().solve(Matrix6d::Identity());
 }
 
 }  // namespace
@@ -79,12 +107,13 @@ LocateStatus locate(const core::Target& target, std::span<const LocatedDot> dots
     case geometry::OrientationStatus::ok:
       break;
   }
+  motion = weigh(target, dots, motion);
   if (target.upright && (motion.rotation * Vector3d::UnitZ()).z() <= 0.0) {
     return LocateStatus::upside_down;
   }
   pose.position_m = motion.translation_m;
   pose.orientation = motion.rotation;
-  pose.covariance = propagate(target, dots, motion);
+  pose.covariance = covariance_of(linearise(target, dots, motion), dots.size());
   pose.rms_residual_m = geometry::rms_residual(body_points, world_points, motion);
   return pose.rms_residual_m <= max_rms_residual_m ? LocateStatus::ok : LocateStatus::residual;
 }

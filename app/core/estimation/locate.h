@@ -24,9 +24,10 @@ enum class LocateStatus : std::uint8_t {
   residual,      // RMS residual above the limit
 };
 
-// The pose that carries the target's dots onto the located ones with the least squared distance,
-// its RMS residual, and its covariance as the dots' covariances imply it, scaled up when the
-// residuals are larger than those say. The output is written when the status is ok or residual.
+// The pose that carries the target's dots onto the located ones: by the quaternion method, then
+// with each dot weighed by its covariance. Its RMS residual, and its covariance as the dots' imply
+// it, scaled up when the residuals are larger than those say. The output is written when the status
+// is ok or residual.
 LocateStatus locate(const core::Target& target, std::span<const LocatedDot> dots,
                     double max_rms_residual_m, core::Pose& pose);
 

@@ -5,6 +5,7 @@
 #include "app/core/estimation/dot_position.h"
 #include "app/core/estimation/dot_size.h"
 #include "app/core/image/band.h"
+#include "app/core/image/dot_centre.h"
 
 namespace dottrack::tracking {
 namespace {
@@ -41,7 +42,7 @@ bool expect(const core::Camera& camera, const geometry::Optics& optics, double d
   if (scale.max_px <= 0.0) return false;
   expected.radius_px = 0.5 * diameter_m / range_m * scale.max_px;
   expected.gate = estimation::dot_gate(
-      estimation::expected_semi_major({diameter_m, diameter_m}, range_m, scale));
+      camera, estimation::expected_semi_major({diameter_m, diameter_m}, range_m, scale));
   return true;
 }
 
@@ -99,6 +100,7 @@ void Follower::find_dot(std::size_t camera, std::size_t dot, const ImageView& im
     closest_px = distance_px;
     found = {true, region};
   }
+  if (found.any) found.region.centroid_px = image::dot_centre(image, found.region);
 }
 
 // No two dots may rest on one region: neither of them is seen by this camera then.
