@@ -40,7 +40,8 @@ void CameraRenderer::render(const Pose& vehicle_pose, const NoiseKey& noise, Gre
   light_ = plain_;
   blurred_ = plain_blurred_;
   if (world_.vehicle) {
-    const VehicleView vehicle(*world_.vehicle, vehicle_pose, world_.lighting, lamp_, camera_);
+    const VehicleView vehicle(*world_.vehicle, vehicle_pose, world_.lighting, lamp_, camera_,
+                              rays_);
     draw_vehicle(vehicle, vehicle.reach());
   }
   if (image.width_px() != camera_.width_px() || image.height_px() != camera_.height_px()) {
@@ -52,7 +53,7 @@ void CameraRenderer::render(const Pose& vehicle_pose, const NoiseKey& noise, Gre
 void CameraRenderer::draw_vehicle(const VehicleView& vehicle, const PixelBox& box) {
   if (box.empty()) return;
   const auto cast = [&](int x, int y, const Eigen::Vector3d& direction) {
-    const SurfaceHit hit = vehicle.cast(direction);
+    const SurfaceHit hit = vehicle.cast(x, y, direction);
     const bool hidden =
         hit.surface != kNothing && still_.hides(x, y, direction, hit.distance * kSameDistance);
     return hidden ? SurfaceHit{} : hit;

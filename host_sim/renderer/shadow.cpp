@@ -97,7 +97,7 @@ StillShadows::StillShadows(std::span<const Object> objects, const Lighting& ligh
     for (std::size_t i = 0; i < objects.size(); ++i) {
       const Ball& ball = objects[i].bound;
       const double reach_m = ball.radius_m + column_radius_m + lamp_.radius_m;
-      if (!objects[i].casts_shadow) continue;
+      if (!objects[i].obstructs) continue;
       if (to_segment(ball.centre, middle, lamp_.middle) > reach_m) continue;
       columns_[c].push_back(static_cast<std::uint16_t>(i));
     }

@@ -40,49 +40,48 @@ double open_sky(double distance_m) {
   return 1.0 - 0.6 * dark * dark;
 }
 
+PixelBox reach_of(const Vehicle& vehicle, const Pose& pose, const Vector3d& lamp,
+                  const SimCamera& camera) {
+  Eigen::Vector2d low(1e5, 1e5);
+  Eigen::Vector2d high(-1e5, -1e5);
+  for (const Vector3d& p_body : points_of_box(vehicle.box_min_m, vehicle.box_max_m)) {
+    const Vector3d p = pose.to_world(p_body);
+    for (const Vector3d& q : {p, shadow_of(p, lamp)}) {
+      const auto pixel = camera.project(q);
+      if (!pixel) return whole(camera);
+      low = low.cwiseMin(*pixel).cwiseMax(-1e5);
+      high = high.cwiseMax(*pixel).cwiseMin(1e5);
+    }
+  }
+  const PixelBox box{static_cast<int>(std::floor(low.x())), static_cast<int>(std::floor(low.y())),
+                     static_cast<int>(std::ceil(high.x())) + 1,
+                     static_cast<int>(std::ceil(high.y())) + 1};
+  return grown(box, kMargin_px, camera.width_px(), camera.height_px());
+}
+
 }  // namespace
 
 VehicleView::VehicleView(const Vehicle& vehicle, const Pose& pose, const Lighting& lighting,
-                         const LampDisc& lamp, const SimCamera& camera)
+                         const LampDisc& lamp, const SimCamera& camera, const RayLattice& rays)
     : vehicle_(vehicle),
       pose_(pose),
       lighting_(lighting),
       camera_(camera),
-      eye_body_(pose.to_body(camera.centre_m())),
+      reach_(reach_of(vehicle, pose, lighting.key.position_m, camera)),
       lamp_body_(to_body(lamp, pose)),
-      objects_(vehicle.objects, eye_body_) {
+      objects_(vehicle.objects, pose.to_body(camera.centre_m()), reach_, [&](int x, int y) {
+        return Vector3d(pose.rotation.transpose() * rays.corner(x, y));
+      }) {
   for (std::size_t i = 0; i < vehicle.objects.size(); ++i) {
-    if (vehicle.objects[i].casts_shadow) shadow_casters_.push_back(static_cast<std::uint16_t>(i));
+    if (vehicle.objects[i].obstructs) shadow_casters_.push_back(static_cast<std::uint16_t>(i));
   }
 }
 
-PixelBox VehicleView::reach() const {
-  Eigen::Vector2d low(1e9, 1e9);
-  Eigen::Vector2d high(-1e9, -1e9);
-  for (const Vector3d& p_body : points_of_box(vehicle_.box_min_m, vehicle_.box_max_m)) {
-    const Vector3d p = pose_.to_world(p_body);
-    for (const Vector3d& q : {p, shadow_of(p, lighting_.key.position_m)}) {
-      const auto pixel = camera_.project(q);
-      if (!pixel) return whole(camera_);
-      low = low.cwiseMin(*pixel);
-      high = high.cwiseMax(*pixel);
-    }
-  }
-  low = low.cwiseMax(-100.0).cwiseMin(1e5);
-  high = high.cwiseMax(-100.0).cwiseMin(1e5);
-  const PixelBox box{static_cast<int>(std::floor(low.x())), static_cast<int>(std::floor(low.y())),
-                     static_cast<int>(std::ceil(high.x())) + 1,
-                     static_cast<int>(std::ceil(high.y())) + 1};
-  return grown(box, kMargin_px, camera_.width_px(), camera_.height_px());
-}
-
-SurfaceHit VehicleView::cast(const Vector3d& direction) const {
-  const Line line{eye_body_, pose_.rotation.transpose() * direction};
+SurfaceHit VehicleView::cast(int x, int y, const Vector3d& direction) const {
   SurfaceHit result;
   Hit hit{result.distance, Vector3d::Zero()};
-  for (std::size_t i = 0; i < objects_.size(); ++i) {
-    if (objects_.nearer(i, line, hit)) result.surface = kFirstVehicleObject + static_cast<int>(i);
-  }
+  const int object = objects_.nearest(x, y, pose_.rotation.transpose() * direction, hit);
+  if (object >= 0) result.surface = kFirstVehicleObject + object;
   result.distance = hit.distance;
   result.normal = pose_.rotation * hit.normal;
   return result;

@@ -9,6 +9,7 @@
 #include "host_sim/renderer/object_list.h"
 #include "host_sim/renderer/patch.h"
 #include "host_sim/renderer/radiance.h"
+#include "host_sim/renderer/ray_lattice.h"
 #include "host_sim/renderer/shadow.h"
 #include "host_sim/renderer/sim_camera.h"
 #include "host_sim/renderer/surface.h"
@@ -20,13 +21,14 @@ class VehicleView {
  public:
   // All references must outlive this.
   VehicleView(const Vehicle& vehicle, const Pose& pose, const Lighting& lighting,
-              const LampDisc& lamp, const SimCamera& camera);
+              const LampDisc& lamp, const SimCamera& camera, const RayLattice& rays);
 
   // Pixels that the vehicle or its shadow may touch; the whole image when that is not clear.
-  PixelBox reach() const;
+  const PixelBox& reach() const { return reach_; }
 
-  // What of the vehicle the line from the camera meets; surface kNothing when it passes by.
-  SurfaceHit cast(const Eigen::Vector3d& direction) const;
+  // What of the vehicle the line through a pixel within reach meets; surface kNothing when it
+  // passes by.
+  SurfaceHit cast(int x, int y, const Eigen::Vector3d& direction) const;
 
   bool is_mark(int surface) const;
 
@@ -47,7 +49,7 @@ class VehicleView {
   Pose pose_;
   const Lighting& lighting_;
   const SimCamera& camera_;
-  Eigen::Vector3d eye_body_;
+  PixelBox reach_;
   LampDisc lamp_body_;
   ObjectList objects_;
   std::vector<std::uint16_t> shadow_casters_;

@@ -39,12 +39,12 @@ SceneCamera make_camera(const CeilingOptions& options, std::size_t spot) {
   const Vector3d centre(kSpots[spot][0] * options.half_length_m + random.uniform(-0.15, 0.15),
                         kSpots[spot][1] * options.half_width_m + random.uniform(-0.15, 0.15),
                         options.height_m + random.uniform(-0.2, 0.2));
-  const Vector3d aim(-0.08 * centre.x() + random.uniform(-0.2, 0.2),
-                     -0.08 * centre.y() + random.uniform(-0.2, 0.2), 0.2);
+  const Vector3d aim(0.12 * centre.x() + random.uniform(-0.2, 0.2),
+                     0.12 * centre.y() + random.uniform(-0.2, 0.2), 0.2);
   const Eigen::Matrix3d rotation = looking_at(centre, aim, radians(random.uniform(-4.0, 4.0)));
   const Lens lens = make_lens(random, options.width_px, options.height_px);
   SensorModel sensor;
-  sensor.exposure = random.uniform(0.90, 1.04);
+  sensor.exposure = random.uniform(0.95, 1.10);
   return {"cam" + std::to_string(spot + 1),
           SimCamera(centre, rotation, lens, options.width_px, options.height_px), sensor};
 }
@@ -63,14 +63,14 @@ Lighting hall_lighting(std::uint64_t seed) {
   RandomStream random(seed, 0x11647);
   Lighting lighting;
   const double azimuth = random.uniform(0.0, 2.0 * kPi);
-  lighting.key = {{15.0 * cosine(azimuth), 15.0 * sine(azimuth), 14.0}, 330.0};
+  lighting.key = {{15.0 * cosine(azimuth), 15.0 * sine(azimuth), 14.0}, 400.0};
   lighting.key_radius_m = 0.9;
   for (const double x : {-2.4, 2.4}) {
     for (const double y : {-1.7, 1.7}) {
-      lighting.fill.push_back({{x, y, 5.6}, random.uniform(1.6, 3.0)});
+      lighting.fill.push_back({{x, y, 5.6}, random.uniform(2.2, 4.0)});
     }
   }
-  lighting.ambient = 0.13;
+  lighting.ambient = 0.26;
   return lighting;
 }
 

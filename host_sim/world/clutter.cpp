@@ -83,7 +83,7 @@ Object make_rock(RandomStream& random, const Vector2d& place, double radius_m) {
     const Vector3d normal = random_direction(random);
     add_face(normal, radius_m * random.uniform(0.62, 0.92) * (1.0 - 0.3 * std::abs(normal.z())));
   }
-  return make_object(rock, {random.uniform(0.12, 0.26), Pattern::mottled, 0.0, random.word()});
+  return make_object(rock, {random.uniform(0.16, 0.32), Pattern::mottled, 0.0, random.word()});
 }
 
 void add_rocks(const ClutterOptions& options, Floor& floor, std::vector<Object>& objects) {
@@ -129,17 +129,25 @@ void add_look_alikes(const ClutterOptions& options, Floor& floor, std::vector<Ob
   }
 }
 
-Object board(const Vector3d& middle, const Vector3d& size) {
-  return make_object(make_box({middle, Eigen::Matrix3d::Identity()}, size),
-                     {0.34, Pattern::planks, 0.0, 9});
+// A row of boards, each short, from `middle` to both sides along x or y.
+void add_boards(const Vector3d& middle, int axis, double length_m, std::vector<Object>& objects) {
+  const int pieces = static_cast<int>(std::ceil(length_m));
+  const double piece_m = length_m / pieces;
+  Vector3d size(0.06, 0.06, 0.2);
+  size[axis] = piece_m;
+  for (int i = 0; i < pieces; ++i) {
+    const Vector3d at = middle + ((i + 0.5) * piece_m - 0.5 * length_m) * Vector3d::Unit(axis);
+    objects.push_back(make_object(make_box({at, Eigen::Matrix3d::Identity()}, size),
+                                  {0.34, Pattern::planks, 0.0, 9}));
+  }
 }
 
 Object wall(const Vector3d& foot, const Vector3d& along, double half_length_m) {
   const std::vector<Vector2d> outline = {
       {-half_length_m, 0.0}, {half_length_m, 0.0}, {half_length_m, 6.0}, {-half_length_m, 6.0}};
-  Object object =
-      make_object(Outline{foot, along, Vector3d::UnitZ(), outline}, {0.40, Pattern::plain, 0.0, 0});
-  object.casts_shadow = false;  // the key lamp shines in through a window
+  Object object = make_object(make_outline(foot, along, Vector3d::UnitZ(), outline),
+                              {0.40, Pattern::plain, 0.0, 0});
+  object.obstructs = false;  // the key lamp shines in through a window
   return object;
 }
 
@@ -159,14 +167,15 @@ std::vector<Object> make_hall(double half_length_m, double half_width_m) {
   const double y = half_width_m + 0.03;
   const double wall_x = half_length_m + 1.8;
   const double wall_y = half_width_m + 1.8;
-  return {board({0.0, y, 0.1}, {2.0 * x, 0.06, 0.2}),
-          board({0.0, -y, 0.1}, {2.0 * x, 0.06, 0.2}),
-          board({x, 0.0, 0.1}, {0.06, 2.0 * y, 0.2}),
-          board({-x, 0.0, 0.1}, {0.06, 2.0 * y, 0.2}),
-          wall({wall_x, 0.0, 0.0}, Vector3d::UnitY(), wall_y),
-          wall({-wall_x, 0.0, 0.0}, Vector3d::UnitY(), wall_y),
-          wall({0.0, wall_y, 0.0}, Vector3d::UnitX(), wall_x),
-          wall({0.0, -wall_y, 0.0}, Vector3d::UnitX(), wall_x)};
+  std::vector<Object> objects = {wall({wall_x, 0.0, 0.0}, Vector3d::UnitY(), wall_y),
+                                 wall({-wall_x, 0.0, 0.0}, Vector3d::UnitY(), wall_y),
+                                 wall({0.0, wall_y, 0.0}, Vector3d::UnitX(), wall_x),
+                                 wall({0.0, -wall_y, 0.0}, Vector3d::UnitX(), wall_x)};
+  for (const double side : {-1.0, 1.0}) {
+    add_boards({0.0, side * y, 0.1}, 0, 2.0 * x + 0.06, objects);
+    add_boards({side * x, 0.0, 0.1}, 1, 2.0 * y - 0.06, objects);
+  }
+  return objects;
 }
 
 }  // namespace dottrack::host_sim

@@ -11,7 +11,7 @@ namespace {
 
 // Dunes, hummocks and ripples, metres.
 double relief_m(const Eigen::Vector2d& p, std::uint64_t seed) {
-  const double dunes = 0.030 * fractal_noise(p / 0.9, 2, seed);
+  const double dunes = 0.045 * fractal_noise(p / 0.9, 2, seed);
   const double ripples =
       0.004 * value_noise(Eigen::Vector2d(p.x() / 0.05, p.y() / 0.16), seed + 11);
   return dunes + ripples + 0.0015 * value_noise(Eigen::Vector2d(p / 0.022), seed + 12);
@@ -34,7 +34,7 @@ double pebble(const Eigen::Vector2d& p, std::uint64_t seed) {
 double sand_albedo(const Eigen::Vector2d& p, std::uint64_t seed) {
   const double patches = 0.10 * fractal_noise(p / 0.7, 3, seed + 21);
   const double grain = 0.13 * value_noise(Eigen::Vector2d(p / 0.013), seed + 22);
-  return 0.36 * (1.0 + patches + grain + pebble(p, seed + 23));
+  return 0.40 * (1.0 + patches + grain + pebble(p, seed + 23));
 }
 
 double concrete_albedo(const Eigen::Vector2d& p, std::uint64_t seed) {

@@ -29,7 +29,7 @@ double cells(const Material& m, const Eigen::Vector3d& p, double window_m) {
   const double tone = value_noise(
       Eigen::Vector3d(std::floor(p.x() / 0.080 + 0.5), std::floor(p.y() / 0.045 + 0.5), 0.0),
       m.seed);
-  return m.albedo * (1.0 + 0.12 * tone) + 0.10 * seams;
+  return m.albedo * (1.0 + 0.12 * tone) + 0.13 * seams;
 }
 
 double planks(const Material& m, const Eigen::Vector3d& p, double window_m) {

@@ -12,8 +12,8 @@ struct Object {
   Shape shape;
   Material material;
   Ball bound;
-  bool is_mark = false;  // a dot or something like one: its edge is rendered with extra care
-  bool casts_shadow = true;
+  bool is_mark = false;   // a dot or something like one: its edge is rendered with extra care
+  bool obstructs = true;  // can hide what is behind it and throw a shadow; marks and walls do not
 };
 
 inline Object make_object(Shape shape, const Material& material) {
@@ -26,7 +26,7 @@ inline Object make_object(Shape shape, const Material& material) {
 inline Object make_mark(const Disc& disc, double albedo) {
   Object object = make_object(disc, {albedo, Pattern::plain, 0.0, 0});
   object.is_mark = true;
-  object.casts_shadow = false;
+  object.obstructs = false;
   return object;
 }
 

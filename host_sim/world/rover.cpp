@@ -22,8 +22,8 @@ Object post(const Vector2d& foot, double bottom_m, double top_m, double radius_m
 }
 
 Object flat(const std::vector<Vector2d>& outline, double height_m, const Material& material) {
-  return make_object(Outline{{0.0, 0.0, height_m}, Vector3d::UnitX(), Vector3d::UnitY(), outline},
-                     material);
+  return make_object(
+      make_outline({0.0, 0.0, height_m}, Vector3d::UnitX(), Vector3d::UnitY(), outline), material);
 }
 
 std::vector<Vector2d> grown(std::vector<Vector2d> outline, double factor) {
@@ -32,8 +32,8 @@ std::vector<Vector2d> grown(std::vector<Vector2d> outline, double factor) {
 }
 
 void add_deck(std::vector<Object>& objects) {
-  const Material cells{0.045, Pattern::cells, 0.25, 3};
-  const Material rim{0.30, Pattern::plain, 0.0, 0};
+  const Material cells{0.06, Pattern::cells, 0.25, 3};
+  const Material rim{0.34, Pattern::plain, 0.0, 0};
   objects.push_back(flat(grown(deck_outline(), 1.022), kDeckHeight_m - 0.006, rim));
   objects.push_back(flat(deck_outline(), kDeckHeight_m, cells));
 }
@@ -48,7 +48,7 @@ void add_body(std::vector<Object>& objects) {
 }
 
 void add_wheels(std::vector<Object>& objects) {
-  const Material tyre{0.10, Pattern::plain, 0.1, 0};
+  const Material tyre{0.13, Pattern::plain, 0.1, 0};
   const Material hub{0.34, Pattern::plain, 0.0, 0};
   for (const double x : {0.54, 0.0, -0.54}) {
     for (const double side : {-1.0, 1.0}) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace dottrack::host_sim {
 namespace {
@@ -35,14 +36,13 @@ bool meets(const Disc& disc, const Line& line, Hit& hit) {
 }
 
 bool meets(const Outline& outline, const Line& line, Hit& hit) {
-  const Eigen::Vector3d normal = outline.axis_u.cross(outline.axis_v);
-  const double distance = to_plane(line, outline.origin, normal);
+  const double distance = to_plane(line, outline.origin, outline.normal);
   if (!accept(distance)) return false;
   const Eigen::Vector3d p = line.origin + distance * line.direction - outline.origin;
   if (!inside_outline(outline.vertices, {p.dot(outline.axis_u), p.dot(outline.axis_v)})) {
     return false;
   }
-  hit = {distance, facing(normal, line)};
+  hit = {distance, facing(outline.normal, line)};
   return true;
 }
 
@@ -164,6 +164,11 @@ bool intersect(const Shape& shape, const Line& line, Hit& hit) {
 
 Ball bounding_ball(const Shape& shape) {
   return std::visit([](const auto& s) { return bound(s); }, shape);
+}
+
+Outline make_outline(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis_u,
+                     const Eigen::Vector3d& axis_v, std::vector<Eigen::Vector2d> vertices) {
+  return {origin, axis_u, axis_v, axis_u.cross(axis_v), std::move(vertices)};
 }
 
 Convex make_box(const Pose& pose, const Eigen::Vector3d& size_m) {

@@ -36,7 +36,8 @@ struct Outline {
   Eigen::Vector3d origin;
   Eigen::Vector3d axis_u;                 // unit, in the plane
   Eigen::Vector3d axis_v;                 // unit, in the plane, at right angles to axis_u
-  std::vector<Eigen::Vector2d> vertices;  // in (u, v)
+  Eigen::Vector3d normal;                 // unit, axis_u x axis_v
+  std::vector<Eigen::Vector2d> vertices;  // in (u, v); the last joins the first
 };
 
 // The points p with normal . p <= offset for every face.
@@ -63,6 +64,9 @@ bool intersect(const Shape& shape, const Line& line, Hit& hit);
 
 // A ball that contains the shape.
 Ball bounding_ball(const Shape& shape);
+
+Outline make_outline(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis_u,
+                     const Eigen::Vector3d& axis_v, std::vector<Eigen::Vector2d> vertices);
 
 // A box of the given size, its middle at `pose`.
 Convex make_box(const Pose& pose, const Eigen::Vector3d& size_m);
