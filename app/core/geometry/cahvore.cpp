@@ -122,7 +122,7 @@ OpticsStatus distort(const Cahvore& m, const Eigen::Vector3d& d, Distorted& f) n
   f.split.lambda = d - f.split.zeta * m.o;
   f.split.length = f.split.lambda.norm();
   f.on_axis = f.split.length <= kOnAxisTangent * std::abs(f.split.zeta);
-  const bool backwards = !(f.split.zeta > 0.0);
+  const bool backwards = !clearly_in_front(f.split.zeta, d.squaredNorm());
   const OpticsStatus refused = backwards ? OpticsStatus::behind : OpticsStatus::outside_domain;
   const bool usable = d.squaredNorm() > kCentreRadiusSquared_m2;
   if (!usable || (f.on_axis && backwards)) return refuse_point(d, OpticsStatus::behind);

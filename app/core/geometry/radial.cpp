@@ -29,8 +29,9 @@ bool newton(const RadialPolynomial& p, double target, double guess, double& r) n
     const double step = (p.value(x) - target) / slope;
     x -= step;
     if (std::abs(step) <= kLastStep * std::abs(x)) {
+      if (!(x >= 0.0) || !p.rises_to_square(x * x)) return false;
       r = x;
-      return x >= 0.0 && p.rises_to_square(x * x);
+      return true;
     }
   }
   return false;
