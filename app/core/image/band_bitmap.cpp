@@ -53,15 +53,23 @@ void fill_rows(const ImageView& image, const Window& window, std::uint8_t lo, st
   const int full_words = bitmap.width_px() / 64;
   const int tail = bitmap.width_px() % 64;
   const std::uint64_t tail_mask = bitmap.last_word_mask();
+  PixelKey* occupied = bitmap.occupied_begin();
   for (int y = 0; y < bitmap.height_px(); ++y) {
     const std::uint8_t* pixels = image.row(window.y_min + y) + window.x_min;
     std::uint64_t* words = bitmap.row(y);
-    for (int w = 0; w < full_words; ++w) words[w] = band_word(pixels + 64 * w, band);
+    for (int w = 0; w < full_words; ++w) {
+      words[w] = band_word(pixels + 64 * w, band);
+      *occupied = y * kRowStep + 64 * w;
+      occupied += words[w] != 0;
+    }
     if (tail != 0) {
       const int x = 64 * full_words;
       words[full_words] = band_tail(pixels + x, tail, window.x_min + x, band) & tail_mask;
+      *occupied = y * kRowStep + x;
+      occupied += words[full_words] != 0;
     }
   }
+  bitmap.set_occupied_end(occupied);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -4,14 +4,27 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "app/core/limits.h"
 
 namespace dottrack::image {
 
+// A pixel as one number: row * kRowStep + column. Pixels of neighbouring rows compare by plain
+// addition.
+using PixelKey = std::int32_t;
+inline constexpr PixelKey kRowStep = 1 << 16;
+constexpr int column(PixelKey key) {
+  return key & (kRowStep - 1);
+}
+constexpr int row(PixelKey key) {
+  return key / kRowStep;
+}
+
 // Pixel (x, y) is bit x % 64 of word x / 64 in row y. Around the pixels lies a border of zeros: the
 // word before and the word after each row, the row above the first and the row below the last, so
-// that neighbours can be read without asking whether they exist.
+// that neighbours can be read without asking whether they exist. Whoever fills the rows also lists
+// the words that are not zero.
 class Bitmap {
  public:
   static constexpr int kWordBits = 64;
@@ -34,6 +47,14 @@ class Bitmap {
   // The bits of a row's last word that are pixels.
   std::uint64_t last_word_mask() const;
 
+  // First pixels of the words that are not zero, row by row.
+  std::span<const PixelKey> occupied() const { return {occupied_.data(), occupied_count_}; }
+  // Where to list them; the list ends where it is told to end.
+  PixelKey* occupied_begin() { return occupied_.data(); }
+  void set_occupied_end(const PixelKey* end) {
+    occupied_count_ = static_cast<std::size_t>(end - occupied_.data());
+  }
+
  private:
   std::size_t offset(int y) const {
     return 1 + static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(words_per_row_ + 1);
@@ -45,6 +66,9 @@ class Bitmap {
   static constexpr std::size_t kCapacity =
       1 + static_cast<std::size_t>(kMaxRowWords + 1) * (core::kMaxImageHeight + 2);
   std::array<std::uint64_t, kCapacity> words_{};
+  std::array<PixelKey, static_cast<std::size_t>(kMaxRowWords) * core::kMaxImageHeight + 1>
+      occupied_{};
+  std::size_t occupied_count_ = 0;
 };
 
 }  // namespace dottrack::image

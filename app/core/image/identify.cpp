@@ -38,6 +38,15 @@ Window clipped(const Window& window, const ImageView& image) {
           std::min(window.x_max, image.width_px - 1), std::min(window.y_max, image.height_px - 1)};
 }
 
+// Without a local background, a pixel weighs one more than its distance from the near end of the
+// band.
+PixelWeights band_weights(const ImageView& pixels, const Band& band) {
+  if (band.polarity == core::Polarity::bright) {
+    return {pixels, 1, 1 - std::max(band.intensity_min_dn, 0)};
+  }
+  return {pixels, -1, 1 + std::min(band.intensity_max_dn, 255)};
+}
+
 bool in_size(const RegionGate& gate, const Region& region) {
   return region.semi_major_px >= gate.semi_major_min_px &&
          region.semi_major_px <= gate.semi_major_max_px;
@@ -86,6 +95,7 @@ IdentifyCounts Identifier::identify(const ImageView& image, const Window& window
   components.build(runs);
   searched.y_max = searched.y_min + runs.rows_searched() - 1;
 
+  const PixelWeights weights = band_weights(inside(image, searched), band);
   IdentifyCounts counts;
   counts.runs = static_cast<std::uint32_t>(runs.size());
   counts.overflow_runs = runs.overflow();
@@ -96,8 +106,9 @@ IdentifyCounts Identifier::identify(const ImageView& image, const Window& window
       ++counts.rejected_size;
       continue;
     }
-    count_and_keep(measure(image, searched, band, runs, components, components[i]), gate, counts,
-                   regions);
+    count_and_keep(
+        measure(image, searched, band.polarity, weights, runs, components, components[i]), gate,
+        counts, regions);
   }
   return counts;
 }

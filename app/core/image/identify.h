@@ -26,10 +26,10 @@ struct Band {
 struct RegionGate {
   double semi_major_min_px = 0.0;
   double semi_major_max_px = 1e9;
-  double min_axis_ratio = 0.0;  // semi-minor over semi-major
-  double min_fill = 0.0;        // area over the area of the ellipse with the same moments
+  double min_axis_ratio = 0.0;           // semi-minor over semi-major
+  double min_fill = 0.0;                 // area over the area of the ellipse with the same moments
   double min_core_contrast_dn = -256.0;  // of Region::core_contrast_dn
-  int min_area_px = 2;          // a single pixel is never a dot
+  int min_area_px = 2;                   // a single pixel is never a dot
 };
 
 struct Window {  // both ends included; clipped to the image

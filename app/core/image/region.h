@@ -16,8 +16,8 @@ struct Region {
   double semi_minor_px = 0.0;
   double angle_rad = 0.0;
   int area_px = 0;
-  // Mean of the 3 x 3 pixels around the centroid over the region's faintest pixel, towards the dots'
-  // polarity: negative where the region is a scatter of noise without a core.
+  // Mean of the 3 x 3 pixels around the centroid over the region's faintest pixel, towards the
+  // dots' polarity: negative where the region is a scatter of noise without a core.
   double core_contrast_dn = 0.0;
   int saturated_px = 0;  // pixels at 255
   // Bounding box, both ends included.

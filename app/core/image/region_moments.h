@@ -5,6 +5,7 @@
 #include "app/core/image/components.h"
 #include "app/core/image/identify.h"
 #include "app/core/image/region.h"
+#include "app/core/image/region_sums.h"
 #include "app/core/image/run_scan.h"
 #include "hal/base/image_view.h"
 
@@ -14,8 +15,12 @@ namespace dottrack::image {
 // its semi-major axis is outside the gate.
 bool excludes_size(const RegionGate& gate, const Component& component);
 
-// The component's pixels, in the coordinates of the window, as a region of the image.
-Region measure(const ImageView& image, const Window& window, const Band& band, const RunList& runs,
-               const Components& components, const Component& component);
+// The component as a region of the image, found in the window.
+Region measure(const ImageView& image, const Window& window, core::Polarity polarity,
+               const PixelWeights& weights, const RunList& runs, const Components& components,
+               const Component& component);
+
+// The pixels of the image inside the window.
+ImageView inside(const ImageView& image, const Window& window);
 
 }  // namespace dottrack::image

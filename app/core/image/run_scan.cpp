@@ -6,8 +6,6 @@ namespace dottrack::image {
 
 namespace {
 
-constexpr int kWordBits = Bitmap::kWordBits;
-
 // The ends of the runs in one word: a set pixel whose left (right) neighbour is clear, unless no
 // neighbour at all is set.
 struct RunEnds {
@@ -22,39 +20,50 @@ RunEnds run_ends(const std::uint64_t* up, const std::uint64_t* here, const std::
   return {*here & ~left & (right | beside), *here & ~right & (left | beside)};
 }
 
-}  // namespace
-
-void RunList::scan_row(const Bitmap& bitmap, int y) {
-  const std::uint64_t* up = bitmap.row(y - 1);
-  const std::uint64_t* here = bitmap.row(y);
-  const std::uint64_t* down = bitmap.row(y + 1);
-  std::size_t firsts = size_;
-  std::size_t lasts = size_;
-  for (int w = 0; w < bitmap.words_per_row(); ++w) {
-    if (here[w] == 0) continue;
-    RunEnds ends = run_ends(up + w, here + w, down + w);
-    const PixelKey key = y * kRowStep + w * kWordBits;
-    for (; ends.first != 0; ends.first &= ends.first - 1) {
-      runs_[firsts++].first = key + std::countr_zero(ends.first);
-    }
-    for (; ends.last != 0; ends.last &= ends.last - 1) {
-      runs_[lasts++].last = key + std::countr_zero(ends.last);
-    }
+// Writes the positions of the set bits, and garbage behind them; returns how many. Two without a
+// branch: more in one word are rare, and whether there are none, one or two cannot be predicted.
+template <PixelKey Run::*kEnd>
+std::size_t write_positions(std::uint64_t bits, PixelKey key, Run* runs) {
+  constexpr std::uint64_t kNotZero = std::uint64_t{1} << 63U;
+  const std::uint64_t second = bits & (bits - 1);
+  runs[0].*kEnd = key + std::countr_zero(bits | kNotZero);
+  runs[1].*kEnd = key + std::countr_zero(second | kNotZero);
+  std::size_t count = static_cast<std::size_t>(bits != 0) + static_cast<std::size_t>(second != 0);
+  for (std::uint64_t rest = second & (second - 1); rest != 0; rest &= rest - 1) {
+    runs[count++].*kEnd = key + std::countr_zero(rest);
   }
-  size_ = firsts;
+  return count;
 }
 
+}  // namespace
+
 void RunList::scan(const Bitmap& bitmap) {
-  size_ = 0;
   overflow_ = 0;
   rows_searched_ = bitmap.height_px();
-  for (int y = 0; y < bitmap.height_px(); ++y) {
-    const std::size_t before = size_;
-    scan_row(bitmap, y);
-    if (size_ <= kCapacity && overflow_ == 0) continue;
-    if (overflow_ == 0) rows_searched_ = y;
-    overflow_ += static_cast<std::uint32_t>(size_ - before);
-    size_ = before;
+  const std::uint64_t* pixels = bitmap.row(0);
+  const std::ptrdiff_t step = bitmap.row(1) - pixels;
+  std::size_t firsts = 0;
+  std::size_t lasts = 0;
+  for (const PixelKey key : bitmap.occupied()) {
+    const std::uint64_t* here = pixels + row(key) * step + column(key) / Bitmap::kWordBits;
+    const RunEnds ends = run_ends(here - step, here, here + step);
+    if (firsts > kCapacity) [[unlikely]] {
+      overflow_ += static_cast<std::uint32_t>(std::popcount(ends.first));
+      continue;
+    }
+    firsts += write_positions<&Run::first>(ends.first, key, runs_.data() + firsts);
+    lasts += write_positions<&Run::last>(ends.last, key, runs_.data() + lasts);
+  }
+  size_ = firsts;
+  if (size_ > kCapacity) drop_last_row();
+}
+
+void RunList::drop_last_row() {
+  const int y = row(runs_[size_ - 1].first);
+  rows_searched_ = y;
+  while (size_ > 0 && row(runs_[size_ - 1].first) == y) {
+    --size_;
+    ++overflow_;
   }
 }
 

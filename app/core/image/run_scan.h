@@ -9,16 +9,6 @@
 
 namespace dottrack::image {
 
-// A pixel as one number: row * kRowStep + column. Runs compare across rows by plain subtraction.
-using PixelKey = std::int32_t;
-inline constexpr PixelKey kRowStep = 1 << 16;
-constexpr int column(PixelKey key) {
-  return key & (kRowStep - 1);
-}
-constexpr int row(PixelKey key) {
-  return key / kRowStep;
-}
-
 // A longest horizontal sequence of set pixels, both ends included.
 struct Run {
   PixelKey first;
@@ -39,10 +29,10 @@ class RunList {
   int rows_searched() const { return rows_searched_; }
 
  private:
-  void scan_row(const Bitmap& bitmap, int y);
+  void drop_last_row();
 
-  static constexpr std::size_t kMaxRowRuns = core::kMaxImageWidth / 2 + 1;
-  std::array<Run, kCapacity + kMaxRowRuns> runs_{};
+  static constexpr std::size_t kMaxWordRuns = Bitmap::kWordBits / 2 + 1;
+  std::array<Run, kCapacity + kMaxWordRuns> runs_{};
   std::size_t size_ = 0;
   std::uint32_t overflow_ = 0;
   int rows_searched_ = 0;
