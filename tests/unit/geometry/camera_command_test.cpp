@@ -5,12 +5,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
+#include <iostream>
 #include <sstream>
 #include <streambuf>
 #include <string>
 #include <vector>
+
+#include "app/config/camera_file.h"
+#include "tests/support/temporary_folder.h"
 
 namespace dottrack::workstation {
 namespace {
@@ -26,22 +30,22 @@ const std::string kUnprojectHeader =
     "x,y,status,ox,oy,oz,ux,uy,uz,dox_dx,dox_dy,doy_dx,doy_dy,doz_dx,doz_dy,"
     "dux_dx,dux_dy,duy_dx,duy_dy,duz_dx,duz_dy";
 
-struct Run {
+struct Answer {
   std::vector<std::string> lines;
   std::string error;
 };
 
 using LineFilter = Result<void> (*)(const geometry::CameraModel&, std::istream&, std::ostream&);
 
-Run run(LineFilter filter, const std::string& input) {
+Answer run(LineFilter filter, const std::string& input) {
   std::istringstream in(input);
   std::ostringstream out;
   const Result<void> result = filter(kModel, in, out);
-  Run run;
-  if (!result) run.error = result.error().message;
+  Answer answer;
+  if (!result) answer.error = result.error().message;
   std::istringstream text(out.str());
-  for (std::string line; std::getline(text, line);) run.lines.push_back(line);
-  return run;
+  for (std::string line; std::getline(text, line);) answer.lines.push_back(line);
+  return answer;
 }
 
 TEST(CameraCommand, ProjectsWithPartialDerivatives) {
@@ -50,10 +54,18 @@ TEST(CameraCommand, ProjectsWithPartialDerivatives) {
 }
 
 TEST(CameraCommand, UnprojectsWithPartialDerivatives) {
-  const Run r = run(unproject_lines, "320,240\n");
-  EXPECT_THAT(r.lines, ElementsAre(kUnprojectHeader,
-                                   "320,240,ok,0,0,0,0,0,1,0,0,0,0,0,0,"
-                                   "0.002,0,0,0.002,0,0"));
+  const Answer r = run(unproject_lines, "320,240\n");
+  ASSERT_EQ(r.lines.size(), 2U);
+  EXPECT_EQ(r.lines[0], kUnprojectHeader);
+  const std::string start = "320,240,ok,";
+  ASSERT_THAT(r.lines[1], testing::StartsWith(start));
+  std::istringstream fields(r.lines[1].substr(start.size()));
+  std::vector<double> numbers;
+  for (std::string field; std::getline(fields, field, ',');) numbers.push_back(std::stod(field));
+  EXPECT_THAT(numbers, ElementsAre(0, 0, 0, 0, 0, 1,         // origin, direction
+                                   0, 0, 0, 0, 0, 0,         // d(origin)
+                                   0.002, 0, 0, 0.002, 0, 0  // d(direction)
+                                   ));
 }
 
 TEST(CameraCommand, WritesSeventeenDigits) {
@@ -65,7 +77,7 @@ TEST(CameraCommand, LeavesNumbersEmptyWhereThereAreNone) {
   EXPECT_THAT(run(project_lines, "0,0,-1\n0,0,0\nnan,0,1\n1,inf,1\n").lines,
               ElementsAre(kProjectHeader, "0,0,-1,behind,,,,,,,,", "0,0,0,at_centre,,,,,,,,",
                           "nan,0,1,not_finite,,,,,,,,", "1,inf,1,not_finite,,,,,,,,"));
-  const Run r = run(unproject_lines, "nan,3\n");
+  const Answer r = run(unproject_lines, "nan,3\n");
   EXPECT_EQ(r.lines.at(1), "nan,3,not_finite" + std::string(18, ','));
 }
 
@@ -80,7 +92,7 @@ TEST(CameraCommand, EveryRowIsAsWideAsTheHeader) {
 }
 
 TEST(CameraCommand, PassesOverAHeaderBlankLinesAndCarriageReturns) {
-  const Run r = run(project_lines, "X,Y,Z\r\n\r\n 0 , 0,\t+2 \r\n\n0,0,4");
+  const Answer r = run(project_lines, "X,Y,Z\r\n\r\n 0 , 0,\t+2 \r\n\n0,0,4");
   EXPECT_EQ(r.error, "");
   ASSERT_EQ(r.lines.size(), 3U);
   EXPECT_THAT(r.lines[1], HasSubstr("0,0,2,ok,320,240,"));
@@ -139,6 +151,77 @@ TEST(CameraCommand, AnswersALineBeforeItReadsTheNext) {
   std::istream in(&dialogue);
   ASSERT_TRUE(project_lines(kModel, in, out).has_value());
   EXPECT_THAT(dialogue.answered, ElementsAre(1, 1, 2, 3));
+}
+
+// The command as main() runs it, on these bytes of standard input.
+class Command {
+ public:
+  explicit Command(const std::string& input) : in_(input) {
+    std::ios::sync_with_stdio(false);  // the command's own call then leaves the buffers in place
+    cin_ = std::cin.rdbuf(in_.rdbuf());
+    cout_ = std::cout.rdbuf(out.rdbuf());
+  }
+  Command(const Command&) = delete;
+  Command& operator=(const Command&) = delete;
+  ~Command() {
+    std::cin.rdbuf(cin_);
+    std::cout.rdbuf(cout_);
+    std::cin.clear();
+    std::cout.clear();
+  }
+
+  int run(const std::string& direction, const std::string& model) {
+    CLI::App app;
+    int exit_status = -1;
+    add_camera_command(app, exit_status);
+    testing::internal::CaptureStderr();
+    app.parse("camera " + direction + " \"" + model + "\"");
+    error = testing::internal::GetCapturedStderr();
+    return exit_status;
+  }
+
+  std::ostringstream out;
+  std::string error;
+
+ private:
+  std::istringstream in_;
+  std::streambuf* cin_;
+  std::streambuf* cout_;
+};
+
+class CameraCommandLine : public testing::Test {
+ protected:
+  test::TemporaryFolder folder_;
+  std::string model_ =
+      folder_.write("cam.cahv", config::write_camera_text({kModel, {}, "", {}})).string();
+};
+
+TEST_F(CameraCommandLine, ReadsAModelAndStandardInput) {
+  Command command("1,2,4\n");
+  EXPECT_EQ(command.run("project", model_), 0);
+  EXPECT_EQ(command.out.str(), kProjectHeader + "\n1,2,4,ok,445,490,125,0,-31.25,0,125,-62.5\n");
+  EXPECT_EQ(command.error, "");
+}
+
+TEST_F(CameraCommandLine, EndsWithStatusTwoOnAWrongLine) {
+  Command command("320,240\n320\n");
+  EXPECT_EQ(command.run("unproject", model_), 2);
+  EXPECT_EQ(command.error, "dottrack: standard input:2: \"320\"; expected x,y, two numbers\n");
+}
+
+TEST_F(CameraCommandLine, EndsWithStatusTwoOnAWrongModel) {
+  Command command("");
+  const auto bad = folder_.write("bad.cahv", "\nC = 1 2\n").string();
+  EXPECT_EQ(command.run("project", bad), 2);
+  EXPECT_EQ(command.error, "dottrack: " + bad + ":2: C has 2 numbers; expected three numbers\n");
+  EXPECT_EQ(command.out.str(), "");
+}
+
+TEST_F(CameraCommandLine, EndsWithStatusOneWhenNobodyTakesTheOutput) {
+  Command command("0,0,1\n");
+  std::cout.setstate(std::ios::badbit);
+  EXPECT_EQ(command.run("project", model_), 1);
+  EXPECT_EQ(command.error, "dottrack: standard output cannot be written\n");
 }
 
 }  // namespace
