@@ -1,0 +1,65 @@
+#pragma once
+// The tick: capture, track, broadcast, expose, record.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "app/core/protocol/pose_message.h"
+#include "app/core/tracker.h"
+#include "app/telemetry/recorder.h"
+#include "hal/can_bus.h"
+#include "hal/frame_grabber.h"
+#include "hal/iris.h"
+#include "rtos_shim/clock.h"
+#include "rtos_shim/periodic_timer.h"
+
+namespace dottrack::cycle {
+
+struct CycleSettings {
+  std::size_t cameras = 0;    // of the rig: the first ones of the grabber
+  Duration frame_deadline{};  // after a tick's instant; a later frame is left out of the tick
+  Duration send_deadline{};   // after a tick's instant; a frame not sent by then is dropped
+  std::uint32_t can_base_id = protocol::kDefaultBaseId;
+};
+
+// Frames have half a period to arrive, so that as much is left for the tracker; the pose has to be
+// out before the next tick begins.
+CycleSettings settings_for(std::size_t cameras, Duration period);
+
+// What the loop is made of; all of it outlives the loop. `clock` is the loop's time; `stopwatch`
+// only measures how long stages take and has no influence on anything else.
+struct CycleParts {
+  hal::FrameGrabber& grabber;
+  hal::Iris& iris;
+  hal::CanBus& can;
+  core::Tracker& tracker;
+  const rtos::Clock& clock;
+  const rtos::Clock& stopwatch;
+  telemetry::RecordRing& records;
+};
+
+// The same on the board and on a workstation: one call a wake-up. It allocates nothing, throws
+// nothing and waits for nothing past the deadlines of its settings.
+class Cycle {
+ public:
+  Cycle(const CycleParts& parts, const CycleSettings& settings)
+      : parts_(parts), settings_(settings) {}
+
+  void tick(const rtos::Wake& wake);
+
+ private:
+  const hal::FrameSet& capture(Time due);
+  const core::TickResult& track(const hal::FrameSet& frames);
+  void broadcast(const core::TickResult& result);
+  void expose();
+  void record(const core::TickResult& result);
+
+  CycleParts parts_;
+  CycleSettings settings_;
+  std::array<core::CameraFrame, kMaxCameras> frames_{};
+  std::uint64_t group_ = 0;  // binds the frames of a pose message
+  telemetry::CycleRecord record_;
+};
+
+}  // namespace dottrack::cycle

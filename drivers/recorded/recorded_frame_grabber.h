@@ -1,0 +1,68 @@
+#pragma once
+// Cameras whose images were recorded: DIR/<camera>/<tick, six digits>.pgm.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hal/base/result.h"
+#include "hal/frame_grabber.h"
+
+namespace dottrack::drivers {
+
+struct RecordedCamera {
+  std::string name;  // of its folder
+  int width_px = 0;
+  int height_px = 0;
+};
+
+// The exposure of a tick is centred on its trigger, and its frames are there at once. A camera
+// without an image for the tick, or with one that cannot be read, does not deliver.
+class RecordedFrameGrabber final : public hal::FrameGrabber {
+ public:
+  // At most kMaxCameras cameras. An error when DIR holds no image of any camera that can be read.
+  static Result<std::unique_ptr<RecordedFrameGrabber>> open(const std::filesystem::path& folder,
+                                                            std::vector<RecordedCamera> cameras);
+
+  // One more than the highest number of an image of any camera.
+  std::uint64_t recorded_ticks() const { return recorded_ticks_; }
+
+  // Reads the images of a tick into the buffers, for the trigger that follows; a tick beyond the
+  // last shows the last one again. Not for the loop: it reads files and may allocate. Returns one
+  // line for every image that is there and cannot be read, the first time it is met.
+  std::vector<std::string> load(std::uint64_t tick);
+
+  // Images that were there and could not be read, so far.
+  std::uint64_t bad_frames() const { return bad_frames_; }
+
+  // The image that load() read for a camera; empty when there was none.
+  ImageView loaded_image(std::size_t camera) const;
+
+ private:
+  struct Source {
+    RecordedCamera camera;
+    std::filesystem::path folder;
+    std::vector<std::uint8_t> pixels;
+    bool loaded = false;
+  };
+
+  explicit RecordedFrameGrabber(const std::filesystem::path& folder,
+                                std::vector<RecordedCamera> cameras);
+
+  void do_trigger(Time now) override;
+  const hal::FrameSet& do_await(CameraSet expected, Time deadline) override;
+  void do_release() override { set_.delivered = CameraSet{}; }
+  bool do_set_exposure(std::size_t, const hal::ExposureSettings&) override { return false; }
+
+  std::vector<Source> sources_;
+  std::uint64_t recorded_ticks_ = 0;
+  std::uint64_t loaded_tick_ = ~std::uint64_t{0};
+  std::uint64_t bad_frames_ = 0;
+  hal::FrameSet set_;
+  CameraSet exposed_;  // have an image for the trigger that was last given
+};
+
+}  // namespace dottrack::drivers

@@ -1,0 +1,224 @@
+#include "app/cycle/cycle.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <optional>
+
+#include "app/core/protocol/pose_decoder.h"
+#include "rtos_shim/allocation_trap/allocation_trap.h"
+#include "rtos_shim/virtual_time/virtual_clock.h"
+#include "rtos_shim/virtual_time/virtual_periodic_timer.h"
+#include "tests/support/disc_scene.h"
+#include "tests/unit/cycle/fake_hardware.h"
+
+namespace dottrack::cycle {
+namespace {
+
+using dottrack::test::DiscScene;
+using dottrack::test::GreyImage;
+using std::chrono::milliseconds;
+
+constexpr Duration kPeriod = milliseconds(20);
+constexpr std::size_t kCameras = 4;
+
+// Ticks a millisecond each time it is read.
+class Stopwatch final : public rtos::Clock {
+ private:
+  Time do_now() const override { return Time(milliseconds(++reads_)); }
+  mutable int reads_ = 0;
+};
+
+class CycleTest : public testing::Test {
+ protected:
+  void show(std::uint64_t tick) {
+    for (std::size_t i = 0; i < kCameras; ++i) {
+      shown_[i] = scene_.image_at(i, tick);
+      grabber_.images[i] = shown_[i].view();
+    }
+  }
+
+  const telemetry::CycleRecord& tick() {
+    cycle_.tick(timer_.wait());
+    if (!ring_->try_pop(record_)) throw std::runtime_error("the tick left no record");
+    return record_;
+  }
+
+  std::optional<protocol::PoseMessage> last_message() {
+    protocol::PoseDecoder decoder;
+    std::optional<protocol::PoseMessage> last;
+    for (std::size_t i = 0; i < can_.sent_size; ++i) {
+      protocol::Payload data{};
+      std::copy_n(can_.sent[i].data.begin(), data.size(), data.begin());
+      if (const auto message = decoder.push(can_.sent[i].id, data)) last = message;
+    }
+    return last;
+  }
+
+  DiscScene scene_;
+  std::array<GreyImage, kCameras> shown_;
+  test::FakeGrabber grabber_;
+  test::FakeIris iris_;
+  test::FakeCan can_;
+  core::Tracker tracker_{scene_.rig()};
+  rtos::VirtualClock clock_;
+  rtos::VirtualPeriodicTimer timer_{clock_, Time(milliseconds(100)), kPeriod};
+  Stopwatch stopwatch_;
+  std::unique_ptr<telemetry::RecordRing> ring_ = std::make_unique<telemetry::RecordRing>();
+  Cycle cycle_{{grabber_, iris_, can_, tracker_, clock_, stopwatch_, *ring_},
+               settings_for(kCameras, kPeriod)};
+  telemetry::CycleRecord record_;
+};
+
+TEST_F(CycleTest, FramesBecomeAPoseOnTheBus) {
+  show(0);
+  grabber_.lag = milliseconds(3);
+  const telemetry::CycleRecord& record = tick();
+  ASSERT_TRUE(record.result.has_pose) << core::to_string(record.result.reason);
+  const core::Pose truth = DiscScene::pose_at(0);
+  EXPECT_LT((record.result.pose.position_m - truth.position_m).norm(), 0.005);
+  EXPECT_LT(record.result.pose.orientation.angularDistance(truth.orientation), 0.01);
+
+  const auto message = last_message();
+  ASSERT_TRUE(message);
+  EXPECT_TRUE(message->pose_valid);
+  EXPECT_EQ(message->state, core::State::tracking);
+  EXPECT_EQ(message->mid_exposure, Time(milliseconds(103)));
+  EXPECT_LT((message->position_m - record.result.pose.position_m).norm(), 1e-4);
+  EXPECT_EQ(message->cameras_used, record.result.cameras_used);
+  EXPECT_EQ(record.counters.messages_sent, 1U);
+}
+
+TEST_F(CycleTest, FollowsADriveTickByTick) {
+  for (std::uint64_t n = 0; n < 10; ++n) {
+    show(n);
+    const telemetry::CycleRecord& record = tick();
+    ASSERT_TRUE(record.result.has_pose) << "tick " << n;
+    EXPECT_EQ(record.result.tick, n);
+    EXPECT_LT((record.result.pose.position_m - DiscScene::pose_at(n).position_m).norm(), 0.005);
+  }
+  EXPECT_EQ(record_.result.reset_count, 1U);
+}
+
+TEST_F(CycleTest, DeadlinesCountFromTheInstantOfTheGrid) {
+  tick();
+  EXPECT_EQ(grabber_.expected, CameraSet::first(kCameras));
+  EXPECT_EQ(grabber_.deadline, Time(milliseconds(110)));
+  EXPECT_EQ(can_.deadline, Time(milliseconds(120)));
+}
+
+TEST_F(CycleTest, BuffersGoBackOnceATick) {
+  tick();
+  tick();
+  EXPECT_EQ(grabber_.triggers, 2);
+  EXPECT_EQ(grabber_.releases, 2);
+}
+
+TEST_F(CycleTest, ACameraThatDoesNotDeliverIsLeftOutAndCounted) {
+  show(0);
+  grabber_.images[2] = {};
+  const telemetry::CycleRecord& record = tick();
+  EXPECT_TRUE(record.result.has_pose);
+  EXPECT_FALSE(record.result.cameras_used.contains(2));
+  EXPECT_EQ(record.counters.missing_frames[2], 1U);
+  EXPECT_EQ(record.counters.missing_frames[0], 0U);
+}
+
+TEST_F(CycleTest, AnImageOfTheWrongSizeCountsAsNotDelivered) {
+  show(0);
+  const GreyImage small = dottrack::test::flat_image(64, 48, 100);
+  grabber_.images[1] = small.view();
+  const telemetry::CycleRecord& record = tick();
+  EXPECT_TRUE(record.result.has_pose);
+  EXPECT_EQ(record.counters.missing_frames[1], 1U);
+}
+
+TEST_F(CycleTest, WithoutFramesTheBusHearsThatThereIsNoPose) {
+  show(0);
+  tick();
+  grabber_.images.fill({});
+  const telemetry::CycleRecord& record = tick();
+  EXPECT_FALSE(record.result.has_pose);
+  EXPECT_EQ(record.result.reason, core::Reason::no_frames);
+  EXPECT_EQ(record.stamp, Time(milliseconds(120)));
+  const auto message = last_message();
+  ASSERT_TRUE(message);
+  EXPECT_FALSE(message->pose_valid);
+  EXPECT_EQ(message->reason, core::Reason::no_frames);
+  EXPECT_EQ(message->mid_exposure, Time(milliseconds(120)));
+}
+
+TEST_F(CycleTest, AFullBusIsCountedAndTheRestOfTheGroupStaysAtHome) {
+  can_.answer = hal::SendResult::try_again;
+  can_.answer_from = 2;
+  const telemetry::CycleRecord& record = tick();
+  EXPECT_EQ(can_.attempts, 3U);
+  EXPECT_EQ(record.counters.sends_without_room, 1U);
+  EXPECT_EQ(record.counters.messages_sent, 0U);
+  EXPECT_FALSE(last_message());
+}
+
+TEST_F(CycleTest, ADeadBusIsCountedAndTheLoopGoesOn) {
+  can_.answer = hal::SendResult::failed;
+  show(0);
+  tick();
+  show(1);
+  const telemetry::CycleRecord& record = tick();
+  EXPECT_TRUE(record.result.has_pose);
+  EXPECT_EQ(record.counters.sends_failed, 2U);
+}
+
+TEST_F(CycleTest, MissedInstantsAreCounted) {
+  tick();
+  clock_.jump_to(Time(milliseconds(150)));  // over 120 and 140
+  EXPECT_EQ(tick().counters.deadline_misses, 2U);
+  EXPECT_EQ(record_.due, Time(milliseconds(160)));
+}
+
+TEST_F(CycleTest, IrisesThatDoNotAnswerAreNoted) {
+  iris_.broken.insert(3);
+  EXPECT_EQ(tick().unhealthy_irises.bits(), 0b1000);
+}
+
+TEST_F(CycleTest, EveryStageIsTimedAndRecordingOneTickLater) {
+  EXPECT_EQ(tick().stages.record, Duration(0));
+  const telemetry::StageTimes& took = tick().stages;
+  for (const Duration stage :
+       {took.capture, took.track, took.broadcast, took.expose, took.record}) {
+    EXPECT_EQ(stage, milliseconds(1));
+  }
+}
+
+TEST_F(CycleTest, ARecorderThatIsTooSlowLosesRecordsAndNotTheLoop) {
+  for (std::size_t n = 0; n < telemetry::RecordRing::capacity() + 3; ++n)
+    cycle_.tick(timer_.wait());
+  telemetry::CycleRecord record;
+  while (ring_->try_pop(record)) continue;
+  EXPECT_EQ(record.result.tick, telemetry::RecordRing::capacity() - 1);
+  EXPECT_EQ(tick().counters.records_dropped, 3U);
+}
+
+TEST_F(CycleTest, NoTickTouchesTheHeap) {
+  std::uint64_t heap_calls = 0;
+  const auto armed_tick = [&] {
+    const rtos::Wake wake = timer_.wait();
+    const rtos::AllocationTrap::Scope armed;
+    cycle_.tick(wake);
+    heap_calls += armed.calls().total();
+  };
+  for (std::uint64_t n = 0; n < 5; ++n) {  // acquires, then follows
+    show(n);
+    armed_tick();
+  }
+  const GreyImage noise = dottrack::test::noise_image(400, 300, 1);
+  const GreyImage white = dottrack::test::flat_image(400, 300, 255);
+  for (const ImageView& image : {noise.view(), white.view(), ImageView{}}) {  // loses, searches
+    grabber_.images.fill(image);
+    for (int n = 0; n < 8; ++n) armed_tick();
+  }
+  EXPECT_EQ(heap_calls, 0U);
+}
+
+}  // namespace
+}  // namespace dottrack::cycle

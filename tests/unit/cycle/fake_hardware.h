@@ -1,0 +1,77 @@
+#pragma once
+// Hardware that does what a test says and remembers what it was asked.
+
+#include <vector>
+
+#include "hal/can_bus.h"
+#include "hal/frame_grabber.h"
+#include "hal/iris.h"
+
+namespace dottrack::cycle::test {
+
+class FakeGrabber final : public hal::FrameGrabber {
+ public:
+  std::array<ImageView, kMaxCameras> images{};  // of the next trigger; empty: does not deliver
+  Duration lag{};                               // from the trigger to mid-exposure
+  CameraSet expected;
+  Time deadline{};
+  int triggers = 0;
+  int releases = 0;
+
+ private:
+  void do_trigger(Time now) override {
+    ++triggers;
+    triggered_ = now;
+  }
+  const hal::FrameSet& do_await(CameraSet cameras, Time until) override {
+    expected = cameras;
+    deadline = until;
+    set_.delivered = CameraSet{};
+    for (std::size_t i = 0; i < kMaxCameras; ++i) {
+      if (images[i].empty() || !cameras.contains(i)) continue;
+      set_.frames[i] = {images[i], triggered_ + lag, 0};
+      set_.delivered.insert(i);
+    }
+    return set_;
+  }
+  void do_release() override { ++releases; }
+  bool do_set_exposure(std::size_t, const hal::ExposureSettings&) override { return false; }
+
+  hal::FrameSet set_;
+  Time triggered_{};
+};
+
+class FakeIris final : public hal::Iris {
+ public:
+  CameraSet broken;
+
+ private:
+  bool do_move_to(std::size_t, double) override { return false; }
+  bool do_release_to_auto(std::size_t) override { return false; }
+  hal::IrisState do_state(std::size_t camera) const override {
+    return {.healthy = !broken.contains(camera)};
+  }
+};
+
+class FakeCan final : public hal::CanBus {
+ public:
+  static constexpr std::size_t kRoom = 1000;
+  hal::SendResult answer = hal::SendResult::accepted;
+  std::size_t answer_from = 0;  // frames before this one are accepted
+  std::size_t attempts = 0;
+  std::array<hal::CanFrame, kRoom> sent{};
+  std::size_t sent_size = 0;
+  Time deadline{};
+
+ private:
+  hal::SendResult do_send(const hal::CanFrame& frame, Time until) override {
+    deadline = until;
+    if (attempts++ >= answer_from && answer != hal::SendResult::accepted) return answer;
+    sent.at(sent_size++) = frame;
+    return hal::SendResult::accepted;
+  }
+  bool do_receive(hal::CanFrame&) override { return false; }
+  hal::CanState do_state() const override { return hal::CanState::active; }
+};
+
+}  // namespace dottrack::cycle::test
