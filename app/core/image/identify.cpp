@@ -95,7 +95,9 @@ IdentifyCounts Identifier::identify(const ImageView& image, const Window& window
   components.build(runs);
   searched.y_max = searched.y_min + runs.rows_searched() - 1;
 
-  const PixelWeights weights = band_weights(inside(image, searched), band);
+  const PixelWeights weights = band.min_contrast_dn > 0
+                                   ? PixelWeights{background.excess(), 1, 0}
+                                   : band_weights(inside(image, searched), band);
   IdentifyCounts counts;
   counts.runs = static_cast<std::uint32_t>(runs.size());
   counts.overflow_runs = runs.overflow();

@@ -4,59 +4,73 @@
 
 namespace dottrack::image {
 
-void LocalBackground::start(const ImageView& image, const Window& window, int radius) {
-  radius_ = radius;
-  x_first_ = std::max(window.x_min - radius, 0);
-  x_last_ = std::min(window.x_max + radius, image.width_px - 1);
-  column_sum_.fill(0);
-  for (int y = std::max(window.y_min - radius, 0);
-       y < std::min(window.y_min + radius, image.height_px); ++y) {
-    add_row(image, y, 1);
+void LocalBackground::start(const ImageView& image, const Window& window, const Band& band) {
+  window_ = window;
+  width_px_ = window.x_max - window.x_min + 1;
+  height_px_ = window.y_max - window.y_min + 1;
+  stride_ = (width_px_ + Bitmap::kWordBits - 1) / Bitmap::kWordBits * Bitmap::kWordBits;
+  radius_ = std::clamp(band.background_px / 2, 1, kMaxRadius);
+  x_first_ = std::max(window.x_min - radius_, 0);
+  x_last_ = std::min(window.x_max + radius_, image.width_px - 1);
+  rows_ = 0;
+  flip_ = band.polarity == core::Polarity::bright ? 0x00 : 0xFF;
+  std::fill_n(nothing_.begin(), image.width_px, flip_);
+  std::fill_n(column_sums_.begin(), width_px_ + 2 * radius_ + kPad, 0);
+  const int x = x_first_ - window.x_min + radius_;
+  for (int y = window.y_min - radius_ - 1; y < window.y_min + radius_; ++y) {
+    slide_columns(columns_of(image, y), nothing_.data(), flip_, x_last_ - x_first_ + 1,
+                  column_sums_.data() + x);
   }
 }
 
-void LocalBackground::add_row(const ImageView& image, int y, int sign) {
-  const std::uint8_t* pixels = image.row(y);
-  for (int x = x_first_; x <= x_last_; ++x) {
-    auto& sum = column_sum_[static_cast<std::size_t>(x - x_first_)];
-    sum = static_cast<std::uint16_t>(sum + sign * pixels[x]);
-  }
+const std::uint8_t* LocalBackground::columns_of(const ImageView& image, int y) const {
+  return y < 0 || y >= image.height_px ? nothing_.data() : image.row(y) + x_first_;
 }
 
-void LocalBackground::sum_along_row() {
-  std::int32_t sum = 0;
-  prefix_[0] = 0;
-  for (int x = x_first_; x <= x_last_; ++x) {
-    const auto i = static_cast<std::size_t>(x - x_first_);
-    sum += column_sum_[i];
-    prefix_[i + 1] = sum;
+// From the boxes of the row above to those of row y.
+void LocalBackground::slide_to(const ImageView& image, int y) {
+  const int x = x_first_ - window_.x_min + radius_;
+  slide_columns(columns_of(image, y + radius_), columns_of(image, y - radius_ - 1), flip_,
+                x_last_ - x_first_ + 1, column_sums_.data() + x);
+  running_totals(column_sums_.data(), width_px_ + 2 * radius_, totals_.data());
+  count_pixels(image, y);
+}
+
+void LocalBackground::count_pixels(const ImageView& image, int y) {
+  const int rows = std::min(y + radius_, image.height_px - 1) - std::max(y - radius_, 0) + 1;
+  if (rows == rows_) return;
+  rows_ = rows;
+  for (int i = 0; i < width_px_; ++i) {
+    const int x = window_.x_min + i;
+    const int columns = std::min(x + radius_, image.width_px - 1) - std::max(x - radius_, 0) + 1;
+    counts_[static_cast<std::size_t>(i)] = rows * columns;
+    per_count_[static_cast<std::size_t>(i)] = 1.0F / static_cast<float>(rows * columns);
   }
 }
 
 void LocalBackground::keep_contrast(const ImageView& image, const Window& window, const Band& band,
                                     Bitmap& bitmap) {
-  const int radius = std::clamp(band.background_px / 2, 1, kMaxRadius);
-  const bool bright = band.polarity == core::Polarity::bright;
-  start(image, window, radius);
-  for (int y = window.y_min; y <= window.y_max; ++y) {
-    if (y + radius < image.height_px) add_row(image, y + radius, 1);
-    if (y - radius - 1 >= 0 && y > window.y_min) add_row(image, y - radius - 1, -1);
-    sum_along_row();
-    const int rows = std::min(y + radius, image.height_px - 1) - std::max(y - radius, 0) + 1;
-    for (int x = window.x_min; x <= window.x_max; ++x) {
-      const int lo = std::max(x - radius, 0);
-      const int hi = std::min(x + radius, image.width_px - 1);
-      const std::int32_t sum = prefix_[static_cast<std::size_t>(hi + 1 - x_first_)] -
-                               prefix_[static_cast<std::size_t>(lo - x_first_)];
-      const std::int32_t count = rows * (hi - lo + 1);
-      const std::int32_t difference = image.at(x, y) * count - sum;
-      if ((bright ? difference : -difference) < band.min_contrast_dn * count) {
-        const int bit = x - window.x_min;
-        bitmap.row(y - window.y_min)[bit / 64] &=
-            ~(std::uint64_t{1} << static_cast<unsigned>(bit % 64));
-      }
+  start(image, window, band);
+  const int contrast_dn = std::min(band.min_contrast_dn, 256);
+  PixelKey* occupied = bitmap.occupied_begin();
+  for (int y = 0; y < height_px_; ++y) {
+    slide_to(image, window.y_min + y);
+    const BoxRow row{image.row(window.y_min + y) + window.x_min,
+                     image.width_px - window.x_min,
+                     flip_,
+                     contrast_dn,
+                     totals_.data(),
+                     2 * radius_ + 1,
+                     counts_.data(),
+                     per_count_.data()};
+    std::uint64_t* words = bitmap.row(y);
+    image::keep_contrast(row, bitmap.words_per_row(), words, excess_.data() + y * stride_);
+    for (int w = 0; w < bitmap.words_per_row(); ++w) {
+      *occupied = y * kRowStep + w * Bitmap::kWordBits;
+      occupied += words[w] != 0;
     }
   }
+  bitmap.set_occupied_end(occupied);
 }
 
 }  // namespace dottrack::image
