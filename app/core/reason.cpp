@@ -34,6 +34,8 @@ std::string_view to_string(Reason reason) {
       return "step_too_large";
     case Reason::work_budget:
       return "work_budget";
+    case Reason::ambiguous:
+      return "ambiguous";
   }
   return "unknown";
 }

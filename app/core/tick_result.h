@@ -61,6 +61,7 @@ struct AcquisitionCounts {
   std::uint32_t finalists = 0;
   std::uint32_t overflow = 0;  // pairs or finalists beyond capacity
   std::uint64_t work_units = 0;
+  double chance_matches = 0.0;  // as good as the one selected, that clutter would offer by chance
 };
 
 struct TickResult {

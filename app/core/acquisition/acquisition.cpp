@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/core/acquisition/chance.h"
 #include "app/core/acquisition/finalists.h"
 #include "app/core/acquisition/match.h"
 
@@ -14,6 +15,9 @@ constexpr std::uint64_t kWorkUnits = 6'000'000;
 // A pair's point is looked for among finalists this many largest diameters around it: the depth of
 // a crossover is known less well than its place across the view.
 constexpr double kSearchDiameters = 2.0;
+
+// A lock is refused when clutter would offer more matches as good as it by chance.
+constexpr double kMaxChanceMatches = 1e-3;
 
 estimation::DiameterRange diameters(const core::Target& target) {
   return {core::smallest_dot_diameter_m(target), core::largest_dot_diameter_m(target)};
@@ -114,7 +118,7 @@ void Acquisition::match(core::AcquisitionCounts& counts, WorkBudget& budget) {
   counts.finalists = static_cast<std::uint32_t>(merger.finalists().size());
 }
 
-core::Reason Acquisition::select_and_locate(WorkBudget& budget, core::Pose& pose) {
+core::Reason Acquisition::select_and_locate(WorkBudget& budget, AcquisitionResult& result) {
   const Finalists& finalists = memory_->merger.finalists();
   auto& candidates = memory_->candidates;
   candidates.clear();
@@ -124,13 +128,15 @@ core::Reason Acquisition::select_and_locate(WorkBudget& budget, core::Pose& pose
       shape_, as_span(candidates), largest_score(shape_, rig_->limits.max_rms_residual_m), budget,
       selection);
   if (selected != SelectStatus::found) return reason_of(selected);
+  result.counts.chance_matches = chance_matches(shape_, as_span(finalists), selection);
+  if (result.counts.chance_matches > kMaxChanceMatches) return core::Reason::ambiguous;
   StaticVector<estimation::LocatedDot, core::kMaxDots> dots;
   for (std::size_t k = 0; k < shape_.dots; ++k) {
     const Finalist& finalist = finalists[selection.assignment[k]];
     dots.push_back({k, finalist.position_m, finalist.covariance_m2});
   }
-  return estimation::reason_of(
-      estimation::locate(rig_->target, as_span(dots), rig_->limits.max_rms_residual_m, pose));
+  return estimation::reason_of(estimation::locate(rig_->target, as_span(dots),
+                                                  rig_->limits.max_rms_residual_m, result.pose));
 }
 
 AcquisitionResult Acquisition::acquire(std::span<const image::Regions* const> regions) {
@@ -145,7 +151,7 @@ AcquisitionResult Acquisition::acquire(std::span<const image::Regions* const> re
     } else if (result.counts.finalists < shape_.dots) {
       result.reason = core::Reason::too_few_finalists;
     } else {
-      result.reason = select_and_locate(budget, result.pose);
+      result.reason = select_and_locate(budget, result);
     }
   }
   result.counts.work_units = budget.spent();

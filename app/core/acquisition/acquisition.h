@@ -44,7 +44,7 @@ class Acquisition {
 
   void take_sightings(std::span<const image::Regions* const> regions);
   void match(core::AcquisitionCounts& counts, WorkBudget& budget);
-  core::Reason select_and_locate(WorkBudget& budget, core::Pose& pose);
+  core::Reason select_and_locate(WorkBudget& budget, AcquisitionResult& result);
 
   const core::Rig* rig_;
   std::span<const geometry::Optics> optics_;

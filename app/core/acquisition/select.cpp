@@ -12,8 +12,10 @@ namespace {
 // The bounds tried one after another, as parts of the largest score.
 constexpr std::array<double, 3> kBoundSteps = {1.0 / 64.0, 1.0 / 8.0, 1.0};
 
-// Partial sums are added in another order than match_score adds: ties must not fall to rounding.
+// Partial sums are added in another order than match_score adds: ties, even at a score of nothing,
+// must not fall to rounding.
 constexpr double kRounding = 1.0 + 1e-9;
+constexpr double kRounding_m2 = 1e-18;
 
 double squared(double v) {
   return v * v;
@@ -43,6 +45,9 @@ struct Selector::Search {
   bool saw_upside_down = false;
   Selection best;
 
+  // What a partial score may be at most, rounding included.
+  double limit_m2() const { return bound_m2 * kRounding + kRounding_m2; }
+
   // The whole search below one bound; false when the budget ran out.
   bool run(double bound);
   void try_anchor(std::uint16_t candidate);
@@ -67,7 +72,7 @@ bool Selector::Search::run(double bound) {
 
 void Selector::Search::try_anchor(std::uint16_t candidate) {
   const double cost = squared(candidates[candidate].diameter_m - shape->diameter_m[shape->anchor]);
-  if (cost > bound_m2 || !collect_options(candidate, cost)) return;
+  if (cost > limit_m2() || !collect_options(candidate, cost)) return;
   order_dots();
   assignment[shape->anchor] = candidate;
   extend(0, cost);
@@ -77,7 +82,7 @@ void Selector::Search::try_anchor(std::uint16_t candidate) {
 bool Selector::Search::collect_options(std::uint16_t anchor, double anchor_cost) {
   for (std::size_t dot = 0; dot < shape->dots; ++dot) options[dot].clear();
   const auto& edges = shape->distance_m[shape->anchor];
-  const double spare = bound_m2 - anchor_cost;
+  const double spare = limit_m2() - anchor_cost;
   const double tolerance = std::sqrt(spare);
   const double longest =
       *std::max_element(edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(shape->dots));
@@ -129,7 +134,7 @@ bool Selector::Search::taken(std::size_t depth, std::uint16_t candidate) const {
 double Selector::Search::cost_beside_chosen(std::size_t depth, std::uint8_t dot,
                                             const Option& option, double cost) const {
   double total = cost + option.cost_m2;
-  const double limit = bound_m2 * kRounding - least_rest_m2[depth + 1];
+  const double limit = limit_m2() - least_rest_m2[depth + 1];
   const Eigen::Vector3d& position = candidates[option.candidate].position_m;
   for (std::size_t k = 0; k < depth && total <= limit; ++k) {
     const std::uint8_t other = order[k];
@@ -148,7 +153,7 @@ void Selector::Search::extend(std::size_t depth, double cost) {
   if (!budget->spend(options[dot].size())) return;
   for (const Option& option : options[dot]) {
     const double total = cost_beside_chosen(depth, dot, option, cost);
-    if (total > bound_m2 * kRounding || taken(depth, option.candidate)) continue;
+    if (total > limit_m2() || taken(depth, option.candidate)) continue;
     assignment[dot] = option.candidate;
     extend(depth + 1, total);
     if (budget->exhausted()) return;
