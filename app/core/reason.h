@@ -22,7 +22,7 @@ enum class Reason : std::uint8_t {
   degenerate_geometry = 10,  // the dots seen do not determine a pose
   step_too_large = 11,       // a dot moved further than max_step_m (3.2.3)
   work_budget = 12,          // acquisition's bound of work was reached
-  ambiguous = 13,            // clutter would offer as good a match by chance
+  ambiguous = 13,            // as good a match by chance, or another labelling as good
 };
 
 // One word each: "tracking"; "too_few_regions".

@@ -16,8 +16,16 @@ constexpr std::uint64_t kWorkUnits = 6'000'000;
 // a crossover is known less well than its place across the view.
 constexpr double kSearchDiameters = 2.0;
 
+// Lines of sight cross by chance in two views often, in more hardly ever: the target is looked for
+// among the finalists of many views first, then of fewer.
+constexpr std::array<int, 3> kViewLayers = {4, 3, 2};
+
 // A lock is refused when clutter would offer more matches as good as it by chance.
 constexpr double kMaxChanceMatches = 1e-3;
+
+// Two labellings are told apart when their scores differ by this many times the squared fit: the
+// worse one is then less likely by exp(-7), a thousandth.
+constexpr double kRivalMargin = 14.0;
 
 estimation::DiameterRange diameters(const core::Target& target) {
   return {core::smallest_dot_diameter_m(target), core::largest_dot_diameter_m(target)};
@@ -59,6 +67,7 @@ struct Acquisition::Memory {
   Matcher matcher;
   FinalistMerger merger;
   StaticVector<DotCandidate, core::kMaxFinalists> candidates;
+  StaticVector<std::uint16_t, core::kMaxFinalists> origin;  // a candidate's index among finalists
   Selector selector;
 };
 
@@ -118,18 +127,52 @@ void Acquisition::match(core::AcquisitionCounts& counts, WorkBudget& budget) {
   counts.finalists = static_cast<std::uint32_t>(merger.finalists().size());
 }
 
-core::Reason Acquisition::select_and_locate(WorkBudget& budget, AcquisitionResult& result) {
+core::Reason Acquisition::select(int min_views, WorkBudget& budget, Selection& selection) {
+  const Finalists& finalists = memory_->merger.finalists();
+  auto& candidates = memory_->candidates;
+  auto& origin = memory_->origin;
+  candidates.clear();
+  origin.clear();
+  for (std::size_t i = 0; i < finalists.size(); ++i) {
+    if (finalists[i].cameras.size() < min_views) continue;
+    candidates.push_back({finalists[i].position_m, finalists[i].diameter_m});
+    origin.push_back(static_cast<std::uint16_t>(i));
+  }
+  const SelectStatus status = memory_->selector.select(
+      shape_, as_span(candidates), largest_score(shape_, rig_->limits.max_rms_residual_m), budget,
+      selection);
+  if (status != SelectStatus::found) return reason_of(status);
+  for (std::size_t k = 0; k < shape_.dots; ++k) {
+    selection.assignment[k] = origin[selection.assignment[k]];
+  }
+  return core::Reason::none;
+}
+
+// Another labelling of the same dots is nearly as good: a symmetric target, turned round.
+bool Acquisition::has_rival_labelling(const Selection& selection, WorkBudget& budget) {
   const Finalists& finalists = memory_->merger.finalists();
   auto& candidates = memory_->candidates;
   candidates.clear();
-  for (const Finalist& f : finalists) candidates.push_back({f.position_m, f.diameter_m});
-  Selection selection;
-  const SelectStatus selected = memory_->selector.select(
-      shape_, as_span(candidates), largest_score(shape_, rig_->limits.max_rms_residual_m), budget,
-      selection);
-  if (selected != SelectStatus::found) return reason_of(selected);
+  Assignment given{};
+  for (std::size_t k = 0; k < shape_.dots; ++k) {
+    const Finalist& finalist = finalists[selection.assignment[k]];
+    candidates.push_back({finalist.position_m, finalist.diameter_m});
+    given[k] = static_cast<std::uint16_t>(k);
+  }
+  const double fit_m = fit_of(shape_, as_span(finalists), selection);
+  Selection rival;
+  return memory_->selector.select(shape_, as_span(candidates),
+                                  selection.score_m2 + kRivalMargin * fit_m * fit_m, budget, rival,
+                                  &given) == SelectStatus::found;
+}
+
+core::Reason Acquisition::judge(const Selection& selection, WorkBudget& budget,
+                                AcquisitionResult& result) {
+  const Finalists& finalists = memory_->merger.finalists();
   result.counts.chance_matches = chance_matches(shape_, as_span(finalists), selection);
-  if (result.counts.chance_matches > kMaxChanceMatches) return core::Reason::ambiguous;
+  if (result.counts.chance_matches > kMaxChanceMatches || has_rival_labelling(selection, budget)) {
+    return core::Reason::ambiguous;
+  }
   StaticVector<estimation::LocatedDot, core::kMaxDots> dots;
   for (std::size_t k = 0; k < shape_.dots; ++k) {
     const Finalist& finalist = finalists[selection.assignment[k]];
@@ -137,6 +180,17 @@ core::Reason Acquisition::select_and_locate(WorkBudget& budget, AcquisitionResul
   }
   return estimation::reason_of(estimation::locate(rig_->target, as_span(dots),
                                                   rig_->limits.max_rms_residual_m, result.pose));
+}
+
+core::Reason Acquisition::select_and_locate(WorkBudget& budget, AcquisitionResult& result) {
+  core::Reason reason = core::Reason::no_matching_subset;
+  for (const int min_views : kViewLayers) {
+    Selection selection;
+    reason = select(min_views, budget, selection);
+    if (reason == core::Reason::none) reason = judge(selection, budget, result);
+    if (reason == core::Reason::none || reason == core::Reason::work_budget) break;
+  }
+  return reason;
 }
 
 AcquisitionResult Acquisition::acquire(std::span<const image::Regions* const> regions) {

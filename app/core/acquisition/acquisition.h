@@ -44,6 +44,9 @@ class Acquisition {
 
   void take_sightings(std::span<const image::Regions* const> regions);
   void match(core::AcquisitionCounts& counts, WorkBudget& budget);
+  core::Reason select(int min_views, WorkBudget& budget, Selection& selection);
+  bool has_rival_labelling(const Selection& selection, WorkBudget& budget);
+  core::Reason judge(const Selection& selection, WorkBudget& budget, AcquisitionResult& result);
   core::Reason select_and_locate(WorkBudget& budget, AcquisitionResult& result);
 
   const core::Rig* rig_;

@@ -30,24 +30,6 @@ double longest_edge(const TargetShape& shape) {
   return longest;
 }
 
-// How closely the distances fit, with the finalists' own uncertainty as the least that is believed.
-double fit_m(const TargetShape& shape, std::span<const Finalist> finalists,
-             const Selection& selection) {
-  double edges2 = 0.0;
-  double sigma2 = 0.0;
-  const auto n = static_cast<double>(shape.dots);
-  for (std::size_t i = 0; i < shape.dots; ++i) {
-    const Finalist& a = finalists[selection.assignment[i]];
-    sigma2 += a.covariance_m2.trace() / 3.0 / n;
-    for (std::size_t j = i + 1; j < shape.dots; ++j) {
-      const Vector3d edge = finalists[selection.assignment[j]].position_m - a.position_m;
-      const double off = edge.norm() - shape.distance_m[i][j];
-      edges2 += off * off / (0.5 * n * (n - 1.0));
-    }
-  }
-  return std::sqrt(edges2 + sigma2);
-}
-
 class Rivals {
  public:
   Rivals(std::span<const Finalist> finalists, const Vector3d& middle_m, double radius_m)
@@ -86,12 +68,29 @@ double height_over_first_edge(const TargetShape& shape) {
 
 }  // namespace
 
+double fit_of(const TargetShape& shape, std::span<const Finalist> finalists,
+              const Selection& selection) {
+  double edges2 = 0.0;
+  double sigma2 = 0.0;
+  const auto n = static_cast<double>(shape.dots);
+  for (std::size_t i = 0; i < shape.dots; ++i) {
+    const Finalist& a = finalists[selection.assignment[i]];
+    sigma2 += a.covariance_m2.trace() / 3.0 / n;
+    for (std::size_t j = i + 1; j < shape.dots; ++j) {
+      const Vector3d edge = finalists[selection.assignment[j]].position_m - a.position_m;
+      const double off = edge.norm() - shape.distance_m[i][j];
+      edges2 += off * off / (0.5 * n * (n - 1.0));
+    }
+  }
+  return std::sqrt(edges2 + sigma2);
+}
+
 double chance_matches(const TargetShape& shape, std::span<const Finalist> finalists,
                       const Selection& selection) {
   const Rivals rivals(finalists, mean_position(shape, finalists, selection),
                       kNeighbourhood * longest_edge(shape));
   // Twice the fit to each side.
-  const double width_m = 4.0 * fit_m(shape, finalists, selection);
+  const double width_m = 4.0 * fit_of(shape, finalists, selection);
   const auto chosen = [&](std::size_t dot) -> const Finalist& {
     return finalists[selection.assignment[dot]];
   };

@@ -20,4 +20,9 @@ namespace dottrack::acquisition {
 double chance_matches(const TargetShape& shape, std::span<const Finalist> finalists,
                       const Selection& selection);
 
+// How closely the selection's distances fit the target's, metres: root mean square over all pairs
+// of dots, and with it the finalists' own uncertainty as the least that is believed.
+double fit_of(const TargetShape& shape, std::span<const Finalist> finalists,
+              const Selection& selection);
+
 }  // namespace dottrack::acquisition

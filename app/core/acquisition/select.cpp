@@ -35,6 +35,7 @@ struct Selector::Search {
   const TargetShape* shape = nullptr;
   std::span<const DotCandidate> candidates;
   WorkBudget* budget = nullptr;
+  const Assignment* excluded = nullptr;
 
   std::array<Options, core::kMaxDots> options;             // by dot; the anchor's stays empty
   std::array<std::uint8_t, core::kMaxDots> order{};        // dots, fewest options first
@@ -162,7 +163,7 @@ void Selector::Search::extend(std::size_t depth, double cost) {
 
 void Selector::Search::judge() {
   const double score = match_score(*shape, candidates, assignment);
-  if (score > bound_m2) return;
+  if (score > bound_m2 || (excluded != nullptr && assignment == *excluded)) return;
   const bool first =
       !found || score < best.score_m2 || (score == best.score_m2 && assignment < best.assignment);
   if (!first || !passes_variance_test(*shape, candidates, assignment)) return;
@@ -185,11 +186,13 @@ std::size_t Selector::footprint_bytes() {
 }
 
 SelectStatus Selector::select(const TargetShape& shape, std::span<const DotCandidate> candidates,
-                              double max_score_m2, WorkBudget& budget, Selection& selection) {
+                              double max_score_m2, WorkBudget& budget, Selection& selection,
+                              const Assignment* excluded) {
   Search& search = *search_;
   search.shape = &shape;
   search.candidates = candidates.first(std::min(candidates.size(), core::kMaxFinalists));
   search.budget = &budget;
+  search.excluded = excluded;
   search.assignment = {};
   search.found = false;
   search.saw_upside_down = false;

@@ -68,8 +68,10 @@ class Selector {
 
   static std::size_t footprint_bytes();
 
+  // With `excluded`, that one assignment is passed over: what is found is the best of the others.
   SelectStatus select(const TargetShape& shape, std::span<const DotCandidate> candidates,
-                      double max_score_m2, WorkBudget& budget, Selection& selection);
+                      double max_score_m2, WorkBudget& budget, Selection& selection,
+                      const Assignment* excluded = nullptr);
 
  private:
   struct Search;
