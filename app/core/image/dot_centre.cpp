@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kGrow_px = 2.0;       // what blur puts outside the region
+constexpr double kGrow_px = 0.75;       // what blur puts outside the region
 constexpr double kRingWidth_px = 3.0;  // of the background's ring around that
 constexpr int kMaxReach_px = 32;       // a larger dot's centre gains nothing
 constexpr std::size_t kMinRing = 12;   // pixels that a plane can be trusted with
