@@ -53,7 +53,7 @@ RecordedFrameGrabber::RecordedFrameGrabber(const fs::path& folder,
   for (RecordedCamera& camera : cameras) {
     std::vector<std::uint8_t> pixels(pixels_of(camera));
     fs::path own = folder / camera.name;
-    sources_.push_back({std::move(camera), std::move(own), std::move(pixels), false});
+    sources_.push_back({std::move(camera), std::move(own), std::move(pixels), false, false});
   }
 }
 
@@ -65,7 +65,8 @@ Result<std::unique_ptr<RecordedFrameGrabber>> RecordedFrameGrabber::open(
   bool readable = false;
   for (Source& source : grabber->sources_) {
     const std::vector<std::uint64_t> ticks = ticks_in(source.folder);
-    if (ticks.empty()) continue;
+    source.has_images = !ticks.empty();
+    if (!source.has_images) continue;
     grabber->recorded_ticks_ = std::max(grabber->recorded_ticks_, ticks.back() + 1);
     for (auto tick = ticks.begin(); tick != ticks.end() && !readable; ++tick) {
       const auto read = read_pgm(source.folder / file_name(*tick), source.camera.width_px,
@@ -78,6 +79,14 @@ Result<std::unique_ptr<RecordedFrameGrabber>> RecordedFrameGrabber::open(
   if (!first_fault.empty()) return fail("no image can be read: " + first_fault);
   return fail(fmt::format("{} holds no images of the rig's cameras; expected {}", folder.string(),
                           (folder / "<camera>/<tick, six digits>.pgm").string()));
+}
+
+std::vector<std::string> RecordedFrameGrabber::silent_cameras() const {
+  std::vector<std::string> names;
+  for (const Source& source : sources_) {
+    if (!source.has_images) names.push_back(source.camera.name);
+  }
+  return names;
 }
 
 std::vector<std::string> RecordedFrameGrabber::load(std::uint64_t tick) {

@@ -30,6 +30,9 @@ class RecordedFrameGrabber final : public hal::FrameGrabber {
   // One more than the highest number of an image of any camera.
   std::uint64_t recorded_ticks() const { return recorded_ticks_; }
 
+  // Cameras of which there is no image at all.
+  std::vector<std::string> silent_cameras() const;
+
   // Reads the images of a tick into the buffers, for the trigger that follows; a tick beyond the
   // last shows the last one again. Not for the loop: it reads files and may allocate. Returns one
   // line for every image that is there and cannot be read, the first time it is met.
@@ -46,6 +49,7 @@ class RecordedFrameGrabber final : public hal::FrameGrabber {
     RecordedCamera camera;
     std::filesystem::path folder;
     std::vector<std::uint8_t> pixels;
+    bool has_images = false;
     bool loaded = false;
   };
 

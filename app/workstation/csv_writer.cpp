@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+#include "app/workstation/pose_files.h"
+
+namespace dottrack::workstation {
+namespace {
+
+using core::AcquisitionCounts;
+using core::TickResult;
+
+constexpr std::array<std::string_view, 6> kAxes = {"x", "y", "z", "roll", "pitch", "yaw"};
+constexpr std::size_t kPoseColumns = 7 + 1 + 21;
+
+// Fields of one line, with commas between them. Numbers are as short as they can be and still read
+// back to the same value.
+class Line {
+ public:
+  explicit Line(std::string& text) : text_(text) { text_.clear(); }
+
+  template <class T>
+  Line& operator<<(const T& value) {
+    if (!text_.empty()) text_ += ',';
+    fmt::format_to(std::back_inserter(text_), "{}", value);
+    return *this;
+  }
+  Line& operator<<(bool value) { return *this << (value ? 1 : 0); }
+
+  void skip(std::size_t fields) { text_.append(fields, ','); }
+  void end() { text_ += '\n'; }
+
+ private:
+  std::string& text_;
+};
+
+void write_time(const telemetry::CycleRecord& record, Line& line) {
+  const std::int64_t ns = record.stamp.time_since_epoch().count();
+  line << record.result.tick << fmt::format("{}.{:09}", ns / 1000000000, ns % 1000000000);
+}
+
+void write_pose(const TickResult& result, Line& line) {
+  if (!result.has_pose) return line.skip(kPoseColumns);
+  const core::Pose& pose = result.pose;
+  const Eigen::Vector3d& p = pose.position_m;
+  const Eigen::Quaterniond& q = pose.orientation;
+  line << p.x() << p.y() << p.z() << q.x() << q.y() << q.z() << q.w() << pose.rms_residual_m;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column) line << pose.covariance(row, column);
+  }
+}
+
+void write_view(const core::DotView& view, Line& line) {
+  if (!view.used) return line.skip(3);
+  line << view.pixel.x() << view.pixel.y() << view.residual_px;
+}
+
+void write_dot(const core::DotState& dot, std::size_t cameras, Line& line) {
+  line << dot.located;
+  if (dot.located) {
+    line << dot.position_m.x() << dot.position_m.y() << dot.position_m.z() << dot.position_sigma_m;
+  } else {
+    line.skip(4);
+  }
+  for (std::size_t camera = 0; camera < cameras; ++camera) write_view(dot.views[camera], line);
+}
+
+using CountColumn = std::pair<std::string_view, std::uint64_t>;
+
+std::array<CountColumn, 11> count_columns(const AcquisitionCounts& counts) {
+  return {{{"pairs_tested", counts.pairs_tested},
+           {"rejected_collinear", counts.rejected_collinear},
+           {"rejected_behind", counts.rejected_behind},
+           {"rejected_distance", counts.rejected_distance},
+           {"rejected_miss", counts.rejected_miss},
+           {"rejected_size", counts.rejected_size},
+           {"rejected_reprojection", counts.rejected_reprojection},
+           {"pairs_accepted", counts.pairs_accepted},
+           {"finalists", counts.finalists},
+           {"acquisition_overflow", counts.overflow},
+           {"work_units", counts.work_units}}};
+}
+
+void header_of_pose(Line& line) {
+  for (const std::string_view name :
+       {"x_m", "y_m", "z_m", "qx", "qy", "qz", "qw", "rms_residual_m"}) {
+    line << name;
+  }
+  for (std::size_t row = 0; row < kAxes.size(); ++row) {
+    for (std::size_t column = row; column < kAxes.size(); ++column) {
+      line << fmt::format("cov_{}_{}", kAxes[row], kAxes[column]);
+    }
+  }
+}
+
+void header_of_dot(std::size_t dot, const std::vector<std::string>& cameras, Line& line) {
+  for (const std::string_view name : {"located", "x_m", "y_m", "z_m", "sigma_m"}) {
+    line << fmt::format("dot{}_{}", dot, name);
+  }
+  for (const std::string& camera : cameras) {
+    for (const std::string_view name : {"x_px", "y_px", "residual_px"}) {
+      line << fmt::format("dot{}_{}_{}", dot, camera, name);
+    }
+  }
+}
+
+std::string header(const std::vector<std::string>& cameras, std::size_t dots) {
+  std::string text;
+  Line line(text);
+  for (const std::string_view name : {"tick", "t_s", "state", "reason", "reset_count", "ticks_lost",
+                                      "cameras_used", "dots_used"}) {
+    line << name;
+  }
+  header_of_pose(line);
+  for (std::size_t dot = 0; dot < dots; ++dot) header_of_dot(dot, cameras, line);
+  for (const std::string& camera : cameras) {
+    for (const std::string_view name : {"delivered", "used", "regions", "components", "overflow"}) {
+      line << fmt::format("{}_{}", camera, name);
+    }
+  }
+  for (const auto& [name, value] : count_columns({})) line << name;
+  line.end();
+  return text;
+}
+
+}  // namespace
+
+CsvWriter::CsvWriter(OutputFile& file, std::vector<std::string> cameras, std::size_t dots)
+    : file_(file), cameras_(std::move(cameras)), dots_(dots) {
+  file_.write(header(cameras_, dots_));
+}
+
+void CsvWriter::do_write(const telemetry::CycleRecord& record) {
+  const TickResult& result = record.result;
+  Line line(line_);
+  write_time(record, line);
+  line << core::to_string(result.state) << core::to_string(result.reason) << result.reset_count
+       << result.ticks_lost << result.cameras_used.size() << result.dots_used;
+  write_pose(result, line);
+  for (std::size_t dot = 0; dot < dots_; ++dot) write_dot(result.dots[dot], cameras_.size(), line);
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    const core::CameraTick& camera = result.cameras[i];
+    line << camera.delivered << camera.used << camera.regions << camera.components
+         << camera.overflow;
+  }
+  for (const auto& [name, value] : count_columns(result.acquisition)) line << value;
+  line.end();
+  file_.write(line_);
+}
+
+}  // namespace dottrack::workstation

@@ -1,0 +1,40 @@
+#pragma once
+// The records of a run as text: poses.tum for trajectory tools, poses.csv for everything else.
+// docs/outputs.md describes the columns.
+
+#include <string>
+#include <vector>
+
+#include "app/telemetry/recorder.h"
+#include "app/workstation/output_file.h"
+
+namespace dottrack::workstation {
+
+// One line a tick that has a pose: `t x y z qx qy qz qw`, seconds and metres.
+class TumWriter final : public telemetry::RecordWriter {
+ public:
+  explicit TumWriter(OutputFile& file) : file_(file) {}
+
+ private:
+  void do_write(const telemetry::CycleRecord& record) override;
+
+  OutputFile& file_;
+  std::string line_;
+};
+
+// One line a tick, with a header. Times of the machine are not in it: the same images give the same
+// bytes.
+class CsvWriter final : public telemetry::RecordWriter {
+ public:
+  CsvWriter(OutputFile& file, std::vector<std::string> cameras, std::size_t dots);
+
+ private:
+  void do_write(const telemetry::CycleRecord& record) override;
+
+  OutputFile& file_;
+  std::vector<std::string> cameras_;
+  std::size_t dots_;
+  std::string line_;
+};
+
+}  // namespace dottrack::workstation

@@ -1,0 +1,13 @@
+# What `dottrack replay` is made of, beside its command. Links the allocation trap into the program.
+find_package(PNG REQUIRED)
+dottrack_library(workstation_outputs
+  SOURCES output_file.cpp tum_writer.cpp csv_writer.cpp run_tally.cpp report_file.cpp canvas.cpp
+          bitmap_font.cpp overlay.cpp
+  USES dottrack::config dottrack::core dottrack::telemetry fmt::fmt PNG::PNG)
+target_compile_definitions(dottrack_workstation_outputs PRIVATE
+  DOTTRACK_BUILD_TYPE="$<CONFIG>")
+dottrack_library(workstation_replay SOURCES replay.cpp
+  USES dottrack::workstation_outputs dottrack::cycle dottrack::drivers_recorded
+       dottrack::drivers_candump dottrack::rtos_virtual_time dottrack::rtos_posix_rt
+       dottrack::allocation_trap)
+list(APPEND workstation_uses dottrack::workstation_replay)
