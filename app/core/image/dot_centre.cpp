@@ -12,8 +12,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kGrow_px = 0.75;       // what blur puts outside the region
-constexpr double kRingWidth_px = 3.0;  // of the background's ring around that
+constexpr double kGrow_px = 1.25;      // what blur puts outside the region
+constexpr double kRingWidth_px = 4.0;  // of the background's ring around that
 constexpr int kMaxReach_px = 32;       // a larger dot's centre gains nothing
 constexpr std::size_t kMinRing = 12;   // pixels that a plane can be trusted with
 constexpr double kOutlierSigmas = 2.5;
@@ -126,7 +126,9 @@ Eigen::Vector2d dot_centre(const ImageView& image, const Region& region) {
     moment += weight * Vector2d(p.x, p.y);
   }
   const Vector2d shift = moment / light;
-  const bool plausible = shift.norm() <= 0.5 * region.semi_minor_px;  // false for a NaN, too
+  // At least a grey level on average; a NaN is not plausible either.
+  const bool plausible = std::abs(light) >= static_cast<double>(dot.size()) &&
+                         shift.norm() <= 0.5 * region.semi_minor_px;
   return plausible ? Vector2d(region.centroid_px + shift) : region.centroid_px;
 }
 
