@@ -10,7 +10,7 @@ namespace dottrack::core {
 inline constexpr std::size_t kMaxDots = 16;
 inline constexpr std::size_t kMinDots = 3;
 inline constexpr std::size_t kMaxRegions = 1024;    // accepted regions a camera
-inline constexpr std::size_t kMaxFinalists = 4096;  // 3-D dot finalists
+inline constexpr std::size_t kMaxFinalists = 8192;  // 3-D dot finalists
 inline constexpr int kMaxImageWidth = 2048;
 inline constexpr int kMaxImageHeight = 2048;
 

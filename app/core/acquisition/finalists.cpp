@@ -21,16 +21,14 @@ bool conflicts(const Finalist& finalist, const CandidatePair& pair) {
   return false;
 }
 
-// Projected through the pair's own linearisation: finalists in question are close to its point.
+bool falls_into_box(const estimation::Sighting& sighting, const Eigen::Vector3d& position_m) {
+  return sighting.box_contains(sighting.pixel_of(position_m), kWidenPart, kWiden_px);
+}
+
 bool falls_into_boxes(std::span<const CameraView> views, const CandidatePair& pair,
                       const Eigen::Vector3d& position_m) {
-  const Eigen::Vector3d offset = position_m - pair.point_m;
-  for (std::size_t side = 0; side < 2; ++side) {
-    const Eigen::Vector2d pixel = pair.pixel[side] + pair.jacobian[side] * offset;
-    const auto& sighting = views[pair.camera[side]].sightings[pair.sighting[side]];
-    if (!sighting.box_contains(pixel, kWidenPart, kWiden_px)) return false;
-  }
-  return true;
+  return falls_into_box(views[pair.camera[0]].sightings[pair.sighting[0]], position_m) &&
+         falls_into_box(views[pair.camera[1]].sightings[pair.sighting[1]], position_m);
 }
 
 bool compatible(const Finalist& a, const Finalist& b) {
@@ -48,11 +46,7 @@ bool fits(std::span<const CameraView> views, const Finalist& finalist,
           const Eigen::Vector3d& position_m) {
   for (std::size_t camera = 0; camera < views.size(); ++camera) {
     if (!finalist.cameras.contains(camera)) continue;
-    Eigen::Vector2d pixel;
-    if (geometry::project(views[camera].camera->model, position_m, pixel) !=
-            geometry::OpticsStatus::ok ||
-        !views[camera].sightings[finalist.sighting[camera]].box_contains(pixel, kWidenPart,
-                                                                         kWiden_px)) {
+    if (!falls_into_box(views[camera].sightings[finalist.sighting[camera]], position_m)) {
       return false;
     }
   }

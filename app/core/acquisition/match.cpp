@@ -10,21 +10,9 @@ namespace dottrack::acquisition {
 namespace {
 
 using estimation::Sighting;
-using geometry::OpticsStatus;
 
 bool within(double range_m, const core::Camera& camera) {
   return range_m >= camera.distance_min_m && range_m <= camera.distance_max_m;
-}
-
-bool reprojects(const CameraView& view, const Sighting& sighting, const Eigen::Vector3d& point_m) {
-  Eigen::Vector2d pixel;
-  return geometry::project(view.camera->model, point_m, pixel) == OpticsStatus::ok &&
-         sighting.box_contains(pixel);
-}
-
-bool linearise(const CameraView& view, CandidatePair& pair, std::size_t side) {
-  return geometry::project(view.camera->model, pair.point_m, pair.pixel[side],
-                           &pair.jacobian[side]) == OpticsStatus::ok;
 }
 
 void count(PairGate gate, core::AcquisitionCounts& counts) {
@@ -93,13 +81,13 @@ PairGate test_pair(const CameraView& a, std::size_t sighting_a, const CameraView
   if (!in_a.window.contains(cross.range_a_m) || !in_b.window.contains(cross.range_b_m)) {
     return PairGate::size;
   }
-  if (!reprojects(a, in_a, cross.point_m) || !reprojects(b, in_b, cross.point_m)) {
+  if (!in_a.box_contains(in_a.pixel_of(cross.point_m)) ||
+      !in_b.box_contains(in_b.pixel_of(cross.point_m))) {
     return PairGate::reprojection;
   }
   pair.sighting = {static_cast<std::uint16_t>(sighting_a), static_cast<std::uint16_t>(sighting_b)};
   pair.point_m = cross.point_m;
-  return linearise(a, pair, 0) && linearise(b, pair, 1) ? PairGate::accepted
-                                                        : PairGate::reprojection;
+  return PairGate::accepted;
 }
 
 void Matcher::match(std::span<const CameraView> views, std::size_t a, std::size_t b,

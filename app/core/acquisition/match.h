@@ -26,9 +26,7 @@ struct CameraView {
 struct CandidatePair {
   std::array<std::uint8_t, 2> camera{};
   std::array<std::uint16_t, 2> sighting{};
-  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();       // mean point of closest crossover, world
-  std::array<Eigen::Vector2d, 2> pixel{};                  // its projection into each camera
-  std::array<geometry::ProjectionJacobian, 2> jacobian{};  // d(pixel)/d(point)
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  // mean point of closest crossover, world
 };
 
 using CandidatePairs = StaticVector<CandidatePair, 8192>;

@@ -22,7 +22,7 @@ class PointGrid {
   void visit_near(const Eigen::Vector3d& point_m, const Visit& visit) const;
 
  private:
-  static constexpr std::size_t kHeads = 8192;  // a power of two
+  static constexpr std::size_t kHeads = 16384;  // a power of two
   static constexpr std::uint16_t kNone = 0xFFFF;
 
   // Cells are twice the radius wide, so the ball around a point touches at most eight.

@@ -20,6 +20,14 @@ bool make_sighting(const core::Camera& camera, const geometry::Optics& optics,
       geometry::OpticsStatus::ok) {
     return false;
   }
+  const double middle_m = 0.5 * (sighting.window.near_m + sighting.window.far_m);
+  Eigen::Vector2d pixel;
+  if (geometry::project(camera.model,
+                        sighting.line.ray.origin + middle_m * sighting.line.ray.direction, pixel,
+                        &sighting.pixels_per_rad) != geometry::OpticsStatus::ok) {
+    return false;
+  }
+  sighting.pixels_per_rad *= middle_m;
   sighting.line.sigma_rad = kCentroidSigma_px / scale.mean_px();
   sighting.pixel = region.centroid_px;
   sighting.box_min_px = {region.x_min - 0.5, region.y_min - 0.5};

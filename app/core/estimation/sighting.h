@@ -22,6 +22,15 @@ struct Sighting {
   RangeWindow window;                 // where a dot of the target would look this size
   double angular_diameter_rad = 0.0;  // of the semi-major axis, both halves
   std::uint16_t region = 0;           // index among the camera's regions
+  // d(pixel)/d(point) times the point's range: the same all along the line of sight.
+  geometry::ProjectionJacobian pixels_per_rad = geometry::ProjectionJacobian::Zero();
+
+  // Where a point near the line of sight projects to. Linear: a point a hundredth of its range off
+  // the line is a few hundredths of a pixel off.
+  Eigen::Vector2d pixel_of(const Eigen::Vector3d& point_m) const {
+    const Eigen::Vector3d offset = point_m - line.ray.origin;
+    return pixel + pixels_per_rad * offset / offset.dot(line.ray.direction);
+  }
 
   // Inside the bounding box, widened on every side by a part of its size and a pixel count.
   bool box_contains(const Eigen::Vector2d& p, double widen_part = 0.0,
