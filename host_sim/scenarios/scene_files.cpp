@@ -40,6 +40,26 @@ Result<void> write_pgm(const fs::path& file, const GreyImage& image) {
   return write_bytes(file, head, {bytes, image.pixels().size()});
 }
 
+// The tick in a name like 000012.pgm; nothing for any other name.
+std::optional<std::uint64_t> tick_of(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const bool digits = stem.size() == 6 && stem.find_first_not_of("0123456789") == std::string::npos;
+  if (!digits || file.extension() != ".pgm") return std::nullopt;
+  return std::stoull(stem);
+}
+
+Result<void> remove_ticks_from(std::uint64_t first, const fs::path& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const auto tick = tick_of(entry.path());
+    if (!tick || *tick < first) continue;
+    if (!fs::remove(entry.path(), error)) break;
+  }
+  if (!error) return {};
+  return fail(
+      fmt::format("{}: cannot remove an older run's images: {}", folder.string(), error.message()));
+}
+
 std::string rig_toml(const Scene& scene) {
   const DotAppearance& dots = scene.appearance;
   std::string text = fmt::format("[rig]\nname = \"{}\"\nframe_rate_hz = {:.17g}\n", scene.name,
@@ -90,6 +110,7 @@ Result<void> write_frames(const Scene& scene, std::uint64_t ticks, const fs::pat
                           unsigned threads) {
   for (const SceneCamera& camera : scene.cameras) {
     if (auto made = make_folder(folder / camera.name); !made) return made;
+    if (auto gone = remove_ticks_from(ticks, folder / camera.name); !gone) return gone;
   }
   SceneRenderer renderer(scene, threads);
   std::mutex mutex;

@@ -12,7 +12,8 @@ namespace dottrack::host_sim {
 // folder/rig.toml, folder/<camera>.cahvor, folder/target.csv.
 Result<void> write_rig(const Scene& scene, const std::filesystem::path& folder);
 
-// folder/<camera>/<tick, six digits>.pgm for ticks 0 to ticks - 1. threads 0: as many as there are.
+// folder/<camera>/<tick, six digits>.pgm for ticks 0 to ticks - 1; later ticks that an older run
+// left there are removed. threads 0: as many as the machine has.
 Result<void> write_frames(const Scene& scene, std::uint64_t ticks,
                           const std::filesystem::path& folder, unsigned threads = 0);
 

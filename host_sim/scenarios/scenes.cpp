@@ -42,7 +42,7 @@ void furnish(World& world, ClutterOptions options, double driving_s) {
 
 World empty_hall(std::uint64_t seed) {
   World world;
-  world.ground = {kHalfLength_m, kHalfWidth_m, mix(seed, 0x5A4D)};
+  world.ground = {kHalfLength_m, kHalfWidth_m, mix(seed, 0x5A4D), {}};
   world.lighting = hall_lighting(seed);
   return world;
 }
@@ -57,9 +57,11 @@ Scene make_demo_scene(std::uint64_t seed) {
   scene.target = demo_layout();
   scene.world.vehicle = make_rover(scene.target);
   scene.world.drive.phase_rad = RandomStream(seed, 0xD1).uniform(0.0, 2.0 * kPi);
+  const double round_s = 2.0 * kPi / scene.world.drive.rate_rad_s;
+  scene.world.ground.trail = {scene.world.drive, -round_s, 0.0, kHalfTrack_m, kWheelWidth_m};
   ClutterOptions clutter;
   clutter.seed = seed;
-  furnish(scene.world, clutter, 2.0 * kPi / scene.world.drive.rate_rad_s);
+  furnish(scene.world, clutter, round_s);
   CeilingOptions ceiling;
   ceiling.seed = seed;
   scene.cameras = ceiling_cameras(ceiling);

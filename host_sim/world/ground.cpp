@@ -52,7 +52,7 @@ bool Ground::is_sand(const Eigen::Vector2d& p) const {
 }
 
 double Ground::albedo_at(const Eigen::Vector2d& p) const {
-  return is_sand(p) ? sand_albedo(p, seed) : concrete_albedo(p, seed);
+  return is_sand(p) ? sand_albedo(p, seed) * trail.factor_at(p) : concrete_albedo(p, seed);
 }
 
 Eigen::Vector3d Ground::normal_at(const Eigen::Vector2d& p) const {

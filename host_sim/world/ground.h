@@ -5,12 +5,15 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "host_sim/world/trail.h"
+
 namespace dottrack::host_sim {
 
 struct Ground {
   double half_length_m = 4.0;  // of the sand, along x
   double half_width_m = 3.0;   // along y
   std::uint64_t seed = 1;
+  Trail trail;  // empty: nobody has been here
 
   double albedo_at(const Eigen::Vector2d& p) const;
   Eigen::Vector3d normal_at(const Eigen::Vector2d& p) const;

@@ -52,10 +52,11 @@ void add_wheels(std::vector<Object>& objects) {
   const Material hub{0.34, Pattern::plain, 0.0, 0};
   for (const double x : {0.54, 0.0, -0.54}) {
     for (const double side : {-1.0, 1.0}) {
-      const Vector3d inner(x, side * 0.50, 0.125);
-      objects.push_back(make_object(Cylinder{inner, {0.0, side, 0.0}, 0.18, 0.125}, tyre));
-      objects.push_back(
-          make_object(Disc{inner + Vector3d(0.0, side * 0.183, 0.0), {0.0, side, 0.0}, 0.06}, hub));
+      const Vector3d inner(x, side * (kHalfTrack_m - 0.5 * kWheelWidth_m), 0.125);
+      objects.push_back(make_object(Cylinder{inner, {0.0, side, 0.0}, kWheelWidth_m, 0.125}, tyre));
+      objects.push_back(make_object(
+          Disc{inner + Vector3d(0.0, side * (kWheelWidth_m + 0.003), 0.0), {0.0, side, 0.0}, 0.06},
+          hub));
     }
   }
 }

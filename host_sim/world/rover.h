@@ -11,6 +11,8 @@
 namespace dottrack::host_sim {
 
 inline constexpr double kDeckHeight_m = 0.52;
+inline constexpr double kHalfTrack_m = 0.59;  // from the middle to the middle of a wheel
+inline constexpr double kWheelWidth_m = 0.18;
 inline constexpr double kDotLift_m = 0.003;  // a dot is a plate on the deck
 
 // The deck's outline, (x, y).
