@@ -186,7 +186,7 @@ class CameraParser {
 
   // Taken as it stands: normalising would move every pixel.
   Eigen::Vector3d read_axis(std::string_view key) {
-    const Eigen::Vector3d axis = read_vector(key);
+    Eigen::Vector3d axis = read_vector(key);
     if (!(std::abs(axis.norm() - 1.0) <= kUnitTolerance)) {
       complaint_.add(lines_.find(key)->line,
                      fmt::format("{} is a vector of length {:.6g}", key, axis.norm()),

@@ -55,11 +55,12 @@ OpticsStatus bracketed(const RadialPolynomial& p, double target, double high, do
   return OpticsStatus::not_converged;
 }
 
-// A radius whose value is above the target, on a branch that never folds; infinity if too far.
+// A radius whose value is above the target, on a branch that never folds; too small a one where
+// the target is out of any reach.
 double upper_end(const RadialPolynomial& p, double target) noexcept {
   double high = 1.0;
   for (int i = 0; i < 200 && p.value(high) <= target; ++i) high *= 2.0;
-  return p.value(high) > target ? high : kInfinity;
+  return high;
 }
 
 }  // namespace
@@ -68,13 +69,12 @@ OpticsStatus invert(const RadialPolynomial& polynomial, double target, double gu
                     double& r) noexcept {
   if (newton(polynomial, target, guess, r)) return OpticsStatus::ok;
   if (!(polynomial.a > 0.0)) return OpticsStatus::outside_domain;
-  double high = fold_radius(polynomial);
-  if (std::isfinite(high)) {
-    if (polynomial.value(high) <= target) return OpticsStatus::outside_domain;
-  } else {
-    high = upper_end(polynomial, target);
+  const double fold = fold_radius(polynomial);
+  const bool folds = std::isfinite(fold);
+  const double high = folds ? fold : upper_end(polynomial, target);
+  if (!(polynomial.value(high) > target)) {
+    return folds ? OpticsStatus::outside_domain : OpticsStatus::not_converged;
   }
-  if (!std::isfinite(high)) return OpticsStatus::not_converged;
   return bracketed(polynomial, target, high, r);
 }
 

@@ -99,7 +99,7 @@ TEST(CameraFileReader, NormalisesNothing) {
 TEST(CameraFileReader, AcceptsAMirroredImage) {
   std::string text = kCahv + "Theta = 1.570796327 (90.000000 deg)\n";
   text.replace(text.find("H = 500"), 7, "H = -500");
-  const auto& m = std::get<Cahv>(parsed(text).model);
+  const auto m = std::get<Cahv>(parsed(text).model);
   EXPECT_GT(internal_model(m.a, m.h, m.v).theta, 1.5);
 }
 
