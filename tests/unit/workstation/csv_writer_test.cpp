@@ -1,0 +1,102 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "app/workstation/pose_files.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/workstation/record_of.h"
+#include "tests/unit/workstation/text_of.h"
+
+namespace dottrack::workstation {
+namespace {
+
+using Row = std::map<std::string, std::string>;
+
+class CsvFile : public testing::Test {
+ protected:
+  // Two cameras, three dots, a tick with a pose and one without.
+  void SetUp() override {
+    auto file = OutputFile::create(folder_.path() / "poses.csv");
+    ASSERT_TRUE(file);
+    CsvWriter writer(*file, {"left", "right"}, 3);
+    writer.write(record_with_pose(5));
+    writer.write(record_without_pose(6));
+    ASSERT_TRUE(file->finish());
+    lines_ = lines_of(folder_.path() / "poses.csv");
+    ASSERT_EQ(lines_.size(), 3U);
+    names_ = split(lines_[0], ',');
+  }
+
+  Row row(std::size_t line) const {
+    const std::vector<std::string> fields = split(lines_.at(line), ',');
+    if (fields.size() != names_.size()) throw std::runtime_error("ragged row: " + lines_[line]);
+    Row found;
+    for (std::size_t i = 0; i < fields.size(); ++i) found[names_[i]] = fields[i];
+    return found;
+  }
+
+  test::TemporaryFolder folder_;
+  std::vector<std::string> lines_;
+  std::vector<std::string> names_;
+};
+
+TEST_F(CsvFile, EveryColumnHasANameOfItsOwn) {
+  EXPECT_EQ(std::set<std::string>(names_.begin(), names_.end()).size(), names_.size());
+  EXPECT_EQ(names_.size(), 8U + 8 + 21 + 3 * (5 + 2 * 3) + 2 * 5 + 11);
+}
+
+TEST_F(CsvFile, ATickWithAPoseHasItsNumbers) {
+  const Row row = this->row(1);
+  EXPECT_EQ(row.at("tick"), "5");
+  EXPECT_EQ(row.at("t_s"), "1.500000005");
+  EXPECT_EQ(row.at("state"), "tracking");
+  EXPECT_EQ(row.at("reason"), "none");
+  EXPECT_EQ(row.at("x_m"), "1.25");
+  EXPECT_EQ(row.at("qx"), "-0.5");
+  EXPECT_EQ(row.at("qw"), "0.5");
+  EXPECT_EQ(row.at("rms_residual_m"), "0.003");
+  EXPECT_EQ(row.at("cameras_used"), "2");
+  EXPECT_EQ(row.at("dots_used"), "2");
+  EXPECT_DOUBLE_EQ(std::stod(row.at("cov_x_x")), 1e-6);
+  EXPECT_DOUBLE_EQ(std::stod(row.at("cov_y_yaw")), 12e-6);
+  EXPECT_DOUBLE_EQ(std::stod(row.at("cov_yaw_yaw")), 36e-6);
+}
+
+TEST_F(CsvFile, ADotHasItsPlaceInSpaceAndInTheImagesThatShowIt) {
+  const Row row = this->row(1);
+  EXPECT_EQ(row.at("dot0_located"), "1");
+  EXPECT_EQ(row.at("dot0_z_m"), "0.3");
+  EXPECT_EQ(row.at("dot0_sigma_m"), "0.004");
+  EXPECT_EQ(row.at("dot0_left_x_px"), "");
+  EXPECT_EQ(row.at("dot0_right_x_px"), "12.5");
+  EXPECT_EQ(row.at("dot0_right_y_px"), "99.25");
+  EXPECT_EQ(row.at("dot0_right_residual_px"), "0.125");
+  EXPECT_EQ(row.at("dot2_located"), "0");
+  EXPECT_EQ(row.at("dot2_x_m"), "");
+}
+
+TEST_F(CsvFile, CamerasAndAcquisitionAreThere) {
+  const Row row = this->row(1);
+  EXPECT_EQ(row.at("left_delivered"), "1");
+  EXPECT_EQ(row.at("left_regions"), "7");
+  EXPECT_EQ(row.at("left_components"), "9");
+  EXPECT_EQ(row.at("right_delivered"), "0");
+  EXPECT_EQ(row.at("right_overflow"), "1");
+  EXPECT_EQ(row.at("pairs_tested"), "1234");
+}
+
+TEST_F(CsvFile, ATickWithoutAPoseHasItsReasonAndEmptyFields) {
+  const Row row = this->row(2);
+  EXPECT_EQ(row.at("tick"), "6");
+  EXPECT_EQ(row.at("state"), "acquiring");
+  EXPECT_EQ(row.at("reason"), "too_few_regions");
+  EXPECT_EQ(row.at("ticks_lost"), "3");
+  EXPECT_EQ(row.at("x_m"), "");
+  EXPECT_EQ(row.at("cov_yaw_yaw"), "");
+  EXPECT_EQ(row.at("pairs_tested"), "0");
+}
+
+}  // namespace
+}  // namespace dottrack::workstation

@@ -1,0 +1,44 @@
+#pragma once
+// A record with every kind of content.
+
+#include "app/telemetry/cycle_record.h"
+
+namespace dottrack::workstation {
+
+inline telemetry::CycleRecord record_with_pose(std::uint64_t tick) {
+  telemetry::CycleRecord record;
+  record.due = record.stamp = Time(Duration(1500000000 + static_cast<Duration::rep>(tick)));
+  core::TickResult& result = record.result;
+  result.tick = tick;
+  result.state = core::State::tracking;
+  result.reason = core::Reason::none;
+  result.has_pose = true;
+  result.pose.position_m = {1.25, -0.5, 0.1};
+  result.pose.orientation = Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5);
+  for (int i = 0; i < 36; ++i) result.pose.covariance(i / 6, i % 6) = 1e-6 * (i + 1);
+  result.pose.rms_residual_m = 0.003;
+  result.reset_count = 1;
+  result.dots_used = 2;
+  result.cameras_used = CameraSet(0b11);
+  result.dots[0].located = true;
+  result.dots[0].position_m = {0.1, 0.2, 0.3};
+  result.dots[0].position_sigma_m = 0.004;
+  result.dots[0].views[1].used = true;
+  result.dots[0].views[1].pixel = {12.5F, 99.25F};
+  result.dots[0].views[1].residual_px = 0.125F;
+  result.cameras[0] = {true, true, 7, 9, false};
+  result.cameras[1] = {false, false, 0, 0, true};
+  result.acquisition.pairs_tested = 1234;
+  return record;
+}
+
+inline telemetry::CycleRecord record_without_pose(std::uint64_t tick) {
+  telemetry::CycleRecord record;
+  record.stamp = Time(Duration(7));
+  record.result.tick = tick;
+  record.result.reason = core::Reason::too_few_regions;
+  record.result.ticks_lost = 3;
+  return record;
+}
+
+}  // namespace dottrack::workstation

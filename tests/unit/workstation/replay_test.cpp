@@ -1,0 +1,144 @@
+// `dottrack replay` from images on disk to results on disk.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/core/protocol/pose_decoder.h"
+#include "tests/support/disc_scene.h"
+#include "tests/unit/workstation/replay_run.h"
+
+namespace dottrack::workstation {
+namespace {
+
+namespace fs = std::filesystem;
+using test::DiscScene;
+using testing::Each;
+using testing::HasSubstr;
+
+constexpr std::uint64_t kTicks = 6;
+
+class Replay : public testing::Test {
+ protected:
+  // The drive is drawn once for all tests; they only read it.
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<test::TemporaryFolder>();
+    const DiscScene scene;
+    scene.write_rig(folder_->path());
+    test::write_drive(scene, folder_->path() / "frames", kTicks);
+  }
+  static void TearDownTestSuite() { folder_.reset(); }
+
+  ReplayRun replay(const std::string& out, std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments = {(folder_->path() / "rig.toml").string(), "--frames",
+                                          (folder_->path() / "frames").string(), "--out",
+                                          (outs_.path() / out).string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_replay(arguments);
+  }
+  fs::path out(const std::string& name) const { return outs_.path() / name; }
+
+  static std::unique_ptr<test::TemporaryFolder> folder_;
+  test::TemporaryFolder outs_;
+};
+std::unique_ptr<test::TemporaryFolder> Replay::folder_;
+
+TEST_F(Replay, FollowsTheDriveAndSaysSo) {
+  const ReplayRun run = replay("run");
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.err, "");
+  EXPECT_THAT(run.out, HasSubstr("locked at tick 0, tracking 6 of 6 ticks"));
+  EXPECT_THAT(run.out, HasSubstr("allocations in the loop: 0"));
+  EXPECT_THAT(run.out, HasSubstr((out("run") / "pictures").string()));
+  const std::vector<std::string> lines = lines_of(out("run") / "poses.tum");
+  ASSERT_EQ(lines.size(), kTicks);
+  for (std::uint64_t tick = 0; tick < kTicks; ++tick) {
+    const std::vector<std::string> fields = split(lines[tick], ' ');
+    ASSERT_EQ(fields.size(), 8U);
+    const core::Pose truth = DiscScene::pose_at(tick);
+    EXPECT_NEAR(std::stod(fields[0]), static_cast<double>(tick) / DiscScene::kFrameRate_hz, 1e-9);
+    EXPECT_NEAR(std::stod(fields[1]), truth.position_m.x(), 0.005);
+    EXPECT_NEAR(std::stod(fields[2]), truth.position_m.y(), 0.005);
+    EXPECT_NEAR(std::stod(fields[3]), truth.position_m.z(), 0.005);
+    const Eigen::Quaterniond q(std::stod(fields[7]), std::stod(fields[4]), std::stod(fields[5]),
+                               std::stod(fields[6]));
+    EXPECT_LT(q.angularDistance(truth.orientation), 0.01);
+  }
+}
+
+TEST_F(Replay, ReportsWhatHappened) {
+  ASSERT_EQ(replay("run").status, 0);
+  const std::string report = text_of(out("run") / "report.json");
+  ASSERT_TRUE(is_json(report));
+  EXPECT_EQ(report_of(out("run"), "ticks"), "6");
+  EXPECT_EQ(report_of(out("run"), "tracking_ticks"), "6");
+  EXPECT_EQ(report_of(out("run"), "first_lock_tick"), "0");
+  EXPECT_EQ(report_of(out("run"), "reacquisitions"), "0");
+  EXPECT_EQ(report_of(out("run"), "deadline_misses"), "0");
+  EXPECT_EQ(report_of(out("run"), "allocations_in_loop"), "0");
+  EXPECT_EQ(report_of(out("run"), "allocation_trap_complete"), "true");
+  EXPECT_EQ(report_of(out("run"), "bad_frames"), "0");
+}
+
+TEST_F(Replay, TheSameImagesGiveTheSameBytes) {
+  ASSERT_EQ(replay("one").status, 0);
+  ASSERT_EQ(replay("two").status, 0);
+  int compared = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(out("one"))) {
+    const fs::path name = fs::relative(entry.path(), out("one"));
+    if (!entry.is_regular_file() || name == "report.json") continue;
+    ++compared;
+    EXPECT_TRUE(text_of(entry.path()) == text_of(out("two") / name)) << name;
+  }
+  EXPECT_EQ(compared, 3 + 4);  // poses.tum, poses.csv, can.log and a picture a camera
+}
+
+TEST_F(Replay, RepeatShowsTheLastSetThatManyTimes) {
+  ASSERT_EQ(replay("run", {"--repeat", "20"}).status, 0);
+  EXPECT_EQ(report_of(out("run"), "ticks"), std::to_string(kTicks - 1 + 20));
+  EXPECT_EQ(report_of(out("run"), "tracking_ticks"), std::to_string(kTicks - 1 + 20));
+}
+
+TEST_F(Replay, TheCanLogHoldsEveryPose) {
+  ASSERT_EQ(replay("run").status, 0);
+  const std::vector<std::string> log = lines_of(out("run") / "can.log");
+  const std::vector<std::string> tum = lines_of(out("run") / "poses.tum");
+  ASSERT_EQ(log.size(), protocol::kFramesPerPose * kTicks);
+  protocol::PoseDecoder decoder;
+  std::size_t messages = 0;
+  for (const std::string& line : log) {
+    const std::size_t hash = line.find('#');
+    protocol::Payload data{};
+    for (std::size_t i = 0; i < data.size(); ++i) {
+      data[i] =
+          static_cast<std::uint8_t>(std::stoul(line.substr(hash + 1 + 2 * i, 2), nullptr, 16));
+    }
+    const auto id = static_cast<std::uint32_t>(std::stoul(line.substr(hash - 3, 3), nullptr, 16));
+    const auto message = decoder.push(id, data);
+    if (!message) continue;
+    const std::vector<std::string> fields = split(tum.at(messages++), ' ');
+    EXPECT_TRUE(message->pose_valid);
+    EXPECT_NEAR(to_seconds(message->mid_exposure.time_since_epoch()), std::stod(fields[0]), 1e-6);
+    EXPECT_NEAR(message->position_m.x(), std::stod(fields[1]), 0.00006);
+    EXPECT_NEAR(message->position_m.y(), std::stod(fields[2]), 0.00006);
+    EXPECT_NEAR(message->orientation.z(), std::stod(fields[6]), 0.00002);
+  }
+  EXPECT_EQ(messages, kTicks);
+}
+
+TEST_F(Replay, APictureACameraIsWritten) {
+  ASSERT_EQ(replay("run").status, 0);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::string png = text_of(out("run") / "pictures" / (DiscScene::camera_name(i) + ".png"));
+    EXPECT_EQ(png.substr(1, 3), "PNG");
+  }
+}
+
+TEST_F(Replay, TheCsvHasAReasonForEveryTick) {
+  ASSERT_EQ(replay("run").status, 0);
+  EXPECT_EQ(column_of(out("run"), "tick").size(), kTicks);
+  EXPECT_THAT(column_of(out("run"), "reason"), Each("none"));
+  EXPECT_THAT(column_of(out("run"), "state"), Each("tracking"));
+}
+
+}  // namespace
+}  // namespace dottrack::workstation
