@@ -176,10 +176,10 @@ core::Reason Acquisition::judge(const Selection& selection, WorkBudget& budget,
   StaticVector<estimation::LocatedDot, core::kMaxDots> dots;
   for (std::size_t k = 0; k < shape_.dots; ++k) {
     const Finalist& finalist = finalists[selection.assignment[k]];
-    dots.push_back({k, finalist.position_m, finalist.covariance_m2});
+    dots.push_back(estimation::triangulated_dot(k, finalist.position_m, finalist.covariance_m2));
   }
-  return estimation::reason_of(estimation::locate(rig_->target, as_span(dots),
-                                                  rig_->limits.max_rms_residual_m, result.pose));
+  return estimation::reason_of(estimation::locate(
+      rig_->target, as_span(dots), rig_->limits.max_rms_residual_m, nullptr, result.pose));
 }
 
 core::Reason Acquisition::select_and_locate(WorkBudget& budget, AcquisitionResult& result) {

@@ -1,5 +1,6 @@
 #include "app/core/tracking/follow.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/core/estimation/dot_position.h"
@@ -9,8 +10,6 @@
 
 namespace dottrack::tracking {
 namespace {
-
-using estimation::Sighting;
 
 // The paper's window and gate around a dot's previous place, in dot radii (3.2.2). The rim keeps
 // the blurred edge of a small dot inside its window.
@@ -98,9 +97,14 @@ void Follower::find_dot(std::size_t camera, std::size_t dot, const ImageView& im
     const double distance_px = (region.centroid_px - expected.pixel).norm();
     if (region.touches_border || distance_px > closest_px) continue;
     closest_px = distance_px;
-    found = {true, region};
+    found.any = true;
+    found.region = region;
   }
-  if (found.any) found.region.centroid_px = image::dot_centre(image, found.region);
+  if (!found.any) return;
+  found.region.centroid_px = image::dot_centre(image, found.region);
+  const double diameter_m = rig_->target.dots[dot].diameter_m;
+  found.any = estimation::make_sighting(model, optics_[camera], {diameter_m, diameter_m},
+                                        found.region, found.sighting);
 }
 
 // No two dots may rest on one region: neither of them is seen by this camera then.
@@ -126,40 +130,25 @@ void Follower::update(std::size_t camera, const ImageView& image, image::Regions
   drop_shared_regions(camera);
 }
 
-void Follower::record_views(std::size_t dot, CameraSet cameras) {
-  core::DotState& state = result_.dots[dot];
-  for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
-    if (!cameras.contains(camera)) continue;
-    const image::Region& region = found_[camera][dot].region;
-    Eigen::Vector2d pixel;
-    geometry::project(rig_->cameras[camera].model, state.position_m, pixel);
-    state.views[camera] = view_of(region, (pixel - region.centroid_px).norm());
-    result_.cameras_used.insert(camera);
-  }
-}
-
 bool Follower::triangulate_dot(std::size_t dot, estimation::LocatedDot& located) {
-  const double diameter_m = rig_->target.dots[dot].diameter_m;
-  std::array<Sighting, kMaxCameras> sightings;
   estimation::Views views;
   for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
     const Found& found = found_[camera][dot];
-    if (!found.any ||
-        !estimation::make_sighting(rig_->cameras[camera], optics_[camera], {diameter_m, diameter_m},
-                                   found.region, sightings[camera])) {
-      continue;
-    }
-    views.push_back({camera, &rig_->cameras[camera], &sightings[camera]});
+    if (found.any) views.push_back({camera, &rig_->cameras[camera], &found.sighting});
   }
-  estimation::DotPosition position;
-  if (!estimation::locate_dot(views, position)) return false;
-  located = {dot, position.position_m, position.covariance_m2};
   core::DotState& state = result_.dots[dot];
-  state.located = true;
-  state.position_m = position.position_m;
-  state.position_sigma_m = std::sqrt(position.covariance_m2.trace());
-  state.cameras = position.cameras;
-  record_views(dot, position.cameras);
+  estimation::DotPosition position;
+  if (estimation::locate_dot(views, position)) {
+    located = estimation::triangulated_dot(dot, position.position_m, position.covariance_m2);
+    state.located = true;
+    state.position_m = position.position_m;
+    state.position_sigma_m = std::sqrt(position.covariance_m2.trace());
+    state.cameras = position.cameras;
+    return true;
+  }
+  if (views.size() != 1) return false;
+  located = estimation::glimpsed_dot(dot, views[0].sighting->line, predicted_m_[dot]);
+  state.cameras.insert(views[0].camera);
   return true;
 }
 
@@ -168,17 +157,74 @@ void Follower::triangulate(LocatedDots& located) {
     estimation::LocatedDot position;
     if (triangulate_dot(dot, position)) located.push_back(position);
   }
-  result_.dots_used = static_cast<std::uint8_t>(located.size());
 }
 
-core::Reason Follower::locate(const LocatedDots& located) {
+// A glimpse has no second view to contradict it: the pose must put the dot into its region.
+bool Follower::drop_wrong_glimpses(LocatedDots& located) const {
+  const auto wrong = [&](const estimation::LocatedDot& dot) {
+    if (dot.in_depth) return false;
+    const Eigen::Vector3d place =
+        result_.pose.orientation * rig_->target.dots[dot.dot].position_m + result_.pose.position_m;
+    for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
+      const Found& found = found_[camera][dot.dot];
+      if (found.any) return !found.sighting.box_contains(found.sighting.pixel_of(place));
+    }
+    return true;
+  };
+  const auto kept = std::remove_if(located.begin(), located.end(), wrong);
+  const bool any = kept != located.end();
+  located.erase(kept, located.end());
+  return any;
+}
+
+bool Follower::steps_too_far() const {
+  for (std::size_t dot = 0; dot < rig_->target.dots.size(); ++dot) {
+    const Eigen::Vector3d place =
+        result_.pose.orientation * rig_->target.dots[dot].position_m + result_.pose.position_m;
+    if ((place - predicted_m_[dot]).norm() > rig_->target.max_step_m) return true;
+  }
+  return false;
+}
+
+core::Reason Follower::locate(LocatedDots& located, const core::Pose& previous) {
   for (const estimation::LocatedDot& dot : located) {
     if ((dot.position_m - predicted_m_[dot.dot]).norm() > rig_->target.max_step_m) {
       return core::Reason::step_too_large;
     }
   }
-  return estimation::reason_of(estimation::locate(rig_->target, as_span(located),
-                                                  rig_->limits.max_rms_residual_m, result_.pose));
+  const auto attempt = [&] {
+    return estimation::locate(rig_->target, as_span(located), rig_->limits.max_rms_residual_m,
+                              &previous, result_.pose);
+  };
+  estimation::LocateStatus status = attempt();
+  const bool has_pose =
+      status == estimation::LocateStatus::ok || status == estimation::LocateStatus::residual;
+  if (has_pose && drop_wrong_glimpses(located)) status = attempt();
+  if (status == estimation::LocateStatus::ok && steps_too_far())
+    return core::Reason::step_too_large;
+  return estimation::reason_of(status);
+}
+
+void Follower::record_views(const LocatedDots& located) {
+  result_.dots_used = static_cast<std::uint8_t>(located.size());
+  for (const estimation::LocatedDot& dot : located) {
+    core::DotState& state = result_.dots[dot.dot];
+    if (!dot.in_depth) {
+      state.position_m = result_.pose.orientation * rig_->target.dots[dot.dot].position_m +
+                         result_.pose.position_m;
+    }
+    for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
+      if (!state.cameras.contains(camera)) continue;
+      const image::Region& region = found_[camera][dot.dot].region;
+      Eigen::Vector2d pixel;
+      if (geometry::project(rig_->cameras[camera].model, state.position_m, pixel) !=
+          geometry::OpticsStatus::ok) {
+        continue;
+      }
+      state.views[camera] = view_of(region, (pixel - region.centroid_px).norm());
+      result_.cameras_used.insert(camera);
+    }
+  }
 }
 
 const FollowResult& Follower::follow(std::span<const core::CameraFrame> frames,
@@ -193,7 +239,8 @@ const FollowResult& Follower::follow(std::span<const core::CameraFrame> frames,
   }
   LocatedDots located;
   triangulate(located);
-  result_.reason = locate(located);
+  result_.reason = locate(located, previous);
+  record_views(located);
   return result_;
 }
 

@@ -6,6 +6,7 @@
 
 #include "app/core/camera_frame.h"
 #include "app/core/estimation/locate.h"
+#include "app/core/estimation/sighting.h"
 #include "app/core/geometry/optics.h"
 #include "app/core/image/identify.h"
 #include "app/core/rig.h"
@@ -40,6 +41,7 @@ class Follower {
   struct Found {  // the region chosen for one dot in one camera
     bool any = false;
     image::Region region;
+    estimation::Sighting sighting;
   };
   using LocatedDots = StaticVector<estimation::LocatedDot, core::kMaxDots>;
 
@@ -50,8 +52,10 @@ class Follower {
   void drop_shared_regions(std::size_t camera);
   void triangulate(LocatedDots& located);
   bool triangulate_dot(std::size_t dot, estimation::LocatedDot& located);
-  void record_views(std::size_t dot, CameraSet cameras);
-  core::Reason locate(const LocatedDots& located);
+  bool drop_wrong_glimpses(LocatedDots& located) const;
+  core::Reason locate(LocatedDots& located, const core::Pose& previous);
+  bool steps_too_far() const;
+  void record_views(const LocatedDots& located);
 
   const core::Rig* rig_;
   std::span<const geometry::Optics> optics_;

@@ -110,6 +110,18 @@ TEST_F(TrackerTest, ADotMayHideFromDifferentCameras) {
   expect_locked(tracker_.step(room_.frames()), middle_);
 }
 
+TEST_F(TrackerTest, ADotThatOneCameraSeesCounts) {
+  lock();
+  room_.clear();
+  for (const std::size_t dot : {0U, 1U}) room_.paint_dot(middle_, dot);
+  room_.paint_dot_in(1, middle_, 2);
+  const TickResult& result = tracker_.step(room_.frames());
+  expect_locked(result, middle_);
+  EXPECT_EQ(result.dots_used, 3);
+  EXPECT_FALSE(result.dots[2].located);
+  EXPECT_TRUE(result.dots[2].views[1].used);
+}
+
 TEST_F(TrackerTest, TwoDotsAreTooFew) {
   lock();
   room_.clear();
