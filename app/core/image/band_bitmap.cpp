@@ -8,6 +8,7 @@
 #define HWY_TARGET_INCLUDE "app/core/image/band_bitmap.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h, by its rules.
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include "app/core/image/simd_bits-inl.h"
@@ -16,60 +17,90 @@ HWY_BEFORE_NAMESPACE();
 namespace dottrack::image {
 namespace HWY_NAMESPACE {
 
-// lo <= v <= lo + span, as one unsigned comparison: (v - lo) mod 256 <= span.
-struct ByteBand {
+constexpr std::ptrdiff_t kRowsAhead = 2;
+
+// What it takes to be in band, from the cheapest case to the general one.
+struct AtLeast {
   std::uint8_t lo;
-  std::uint8_t span;
+
+  template <class D, class V = hn::Vec<D>>
+  HWY_INLINE hn::Mask<D> operator()(D d, V v) const {
+    return hn::Eq(hn::Max(v, hn::Set(d, lo)), v);
+  }
 };
 
-HWY_INLINE std::uint64_t band_word(const std::uint8_t* pixels, ByteBand band) {
+struct Between {  // lo <= v <= lo + span, as one unsigned comparison: (v - lo) mod 256 <= span
+  std::uint8_t lo;
+  std::uint8_t span;
+
+  template <class D, class V = hn::Vec<D>>
+  HWY_INLINE hn::Mask<D> operator()(D d, V v) const {
+    const auto above = hn::Sub(v, hn::Set(d, lo));
+    return hn::Eq(hn::Min(above, hn::Set(d, span)), above);
+  }
+};
+
+template <class Test>
+HWY_INLINE std::uint64_t band_word(const std::uint8_t* pixels, Test in_band) {
   const hn::CappedTag<std::uint8_t, 64> d;
   constexpr std::size_t kLanes = MaxLanes(d);
-  const auto lo = hn::Set(d, band.lo);
-  const auto span = hn::Set(d, band.span);
   std::uint64_t word = 0;
   for (std::size_t i = 0; i < 64; i += kLanes) {
-    const auto above = hn::Sub(hn::LoadU(d, pixels + i), lo);
-    word |= bits_of(d, hn::Eq(hn::Min(above, span), above)) << i;
+    word |= bits_of(d, in_band(d, hn::LoadU(d, pixels + i))) << i;
   }
   return word;
 }
 
 // The last, incomplete word of a row. `before` bytes may be read in front of `pixels`.
+template <class Test>
 HWY_INLINE std::uint64_t band_tail(const std::uint8_t* pixels, int count, int before,
-                                   ByteBand band) {
+                                   Test in_band) {
   const int missing = 64 - count;
   if (before >= missing) {
-    return band_word(pixels - missing, band) >> static_cast<unsigned>(missing);
+    return band_word(pixels - missing, in_band) >> static_cast<unsigned>(missing);
   }
   std::array<std::uint8_t, 64> copy{};
   std::memcpy(copy.data(), pixels, static_cast<std::size_t>(count));
-  return band_word(copy.data(), band);
+  return band_word(copy.data(), in_band);
 }
 
-void fill_rows(const ImageView& image, const Window& window, std::uint8_t lo, std::uint8_t span,
-               Bitmap& bitmap) {
-  const ByteBand band{lo, span};
+template <class Test>
+HWY_INLINE void fill(const ImageView& image, const Window& window, Test in_band, int y_first,
+                     int y_end, Bitmap& bitmap) {
   const int full_words = bitmap.width_px() / 64;
   const int tail = bitmap.width_px() % 64;
   const std::uint64_t tail_mask = bitmap.last_word_mask();
-  PixelKey* occupied = bitmap.occupied_begin();
-  for (int y = 0; y < bitmap.height_px(); ++y) {
+  const std::ptrdiff_t ahead = kRowsAhead * image.stride_bytes;
+  PixelKey* occupied = bitmap.occupied_end();
+  for (int y = y_first; y < y_end; ++y) {
     const std::uint8_t* pixels = image.row(window.y_min + y) + window.x_min;
     std::uint64_t* words = bitmap.row(y);
+#pragma GCC unroll 4
     for (int w = 0; w < full_words; ++w) {
-      words[w] = band_word(pixels + 64 * w, band);
+      hwy::Prefetch(pixels + 64 * w + ahead);
+      const std::uint64_t word = band_word(pixels + 64 * w, in_band);
+      words[w] = word;
       *occupied = y * kRowStep + 64 * w;
-      occupied += words[w] != 0;
+      occupied += word != 0;
     }
     if (tail != 0) {
       const int x = 64 * full_words;
-      words[full_words] = band_tail(pixels + x, tail, window.x_min + x, band) & tail_mask;
+      words[full_words] = band_tail(pixels + x, tail, window.x_min + x, in_band) & tail_mask;
       *occupied = y * kRowStep + x;
       occupied += words[full_words] != 0;
     }
   }
   bitmap.set_occupied_end(occupied);
+}
+
+void fill_rows(const ImageView& image, const Window& window, std::uint8_t lo, std::uint8_t hi,
+               int y_first, int y_end, Bitmap& bitmap) {
+  if (hi == 255) {
+    fill(image, window, AtLeast{lo}, y_first, y_end, bitmap);
+  } else {
+    const auto span = static_cast<std::uint8_t>(hi - lo);
+    fill(image, window, Between{lo, span}, y_first, y_end, bitmap);
+  }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -81,27 +112,13 @@ namespace dottrack::image {
 
 HWY_EXPORT(fill_rows);
 
-namespace {
-
-void clear_rows(Bitmap& bitmap) {
-  for (int y = 0; y < bitmap.height_px(); ++y) {
-    std::fill_n(bitmap.row(y), bitmap.words_per_row(), 0U);
-  }
-}
-
-}  // namespace
-
-void fill_band_bitmap(const ImageView& image, const Window& window, const Band& band,
-                      Bitmap& bitmap) {
-  bitmap.reshape(window.x_max - window.x_min + 1, window.y_max - window.y_min + 1);
-  const int lo = std::max(band.intensity_min_dn, 0);
-  const int hi = std::min(band.intensity_max_dn, 255);
-  if (lo > hi) {
-    clear_rows(bitmap);
-    return;
-  }
+void fill_band_rows(const ImageView& image, const Window& window, const Band& band, int y_first,
+                    int y_end, Bitmap& bitmap) {
+  const int lo = std::clamp(band.intensity_min_dn, 0, 255);
+  const int hi = std::clamp(band.intensity_max_dn, 0, 255);
   HWY_DYNAMIC_DISPATCH(fill_rows)
-  (image, window, static_cast<std::uint8_t>(lo), static_cast<std::uint8_t>(hi - lo), bitmap);
+  (image, window, static_cast<std::uint8_t>(lo), static_cast<std::uint8_t>(hi), y_first, y_end,
+   bitmap);
 }
 
 }  // namespace dottrack::image

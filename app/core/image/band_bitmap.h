@@ -7,10 +7,10 @@
 
 namespace dottrack::image {
 
-// bitmap(x, y) = image(window.x_min + x, window.y_min + y) in [intensity_min_dn, intensity_max_dn].
-// The window lies inside the image and the image inside the bitmap's capacity. No byte beyond
-// the end of a row is read.
-void fill_band_bitmap(const ImageView& image, const Window& window, const Band& band,
-                      Bitmap& bitmap);
+// bitmap(x, y) = image(window.x_min + x, window.y_min + y) in [intensity_min_dn, intensity_max_dn]
+// for the rows y_first <= y < y_end of the bitmap, which is as large as the window. The window lies
+// inside the image. No byte beyond the end of a row is read.
+void fill_band_rows(const ImageView& image, const Window& window, const Band& band, int y_first,
+                    int y_end, Bitmap& bitmap);
 
 }  // namespace dottrack::image

@@ -51,6 +51,7 @@ class Bitmap {
   std::span<const PixelKey> occupied() const { return {occupied_.data(), occupied_count_}; }
   // Where to list them; the list ends where it is told to end.
   PixelKey* occupied_begin() { return occupied_.data(); }
+  PixelKey* occupied_end() { return occupied_.data() + occupied_count_; }
   void set_occupied_end(const PixelKey* end) {
     occupied_count_ = static_cast<std::size_t>(end - occupied_.data());
   }

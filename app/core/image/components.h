@@ -25,7 +25,9 @@ class Components {
  public:
   static constexpr std::uint32_t kEnd = 0xFFFFFFFFU;
 
-  void build(const RunList& runs);
+  void clear();
+  // Takes in the runs that were added to the list since.
+  void extend(const RunList& runs);
 
   // Components in the order of their first pixels; those with parent != index were merged.
   std::size_t size() const { return size_; }
@@ -43,6 +45,8 @@ class Components {
   std::array<std::uint32_t, RunList::kCapacity> label_{};
   std::array<std::uint32_t, RunList::kCapacity> next_run_{};
   std::size_t size_ = 0;
+  std::uint32_t runs_taken_ = 0;
+  std::uint32_t above_ = 0;  // no run before it touches the next run from above
 };
 
 }  // namespace dottrack::image

@@ -13,6 +13,9 @@
 namespace dottrack::image {
 
 struct Identifier::Memory {
+  void find_components(const ImageView& image, const Window& window, const Band& band);
+  void take_rows(int y_end);
+
   Bitmap bitmap;
   LocalBackground background;
   RunList runs;
@@ -77,6 +80,30 @@ void count_and_keep(const Region& region, const RegionGate& gate, IdentifyCounts
 
 }  // namespace
 
+void Identifier::Memory::take_rows(int y_end) {
+  runs.scan(bitmap, y_end);
+  components.extend(runs);
+}
+
+// A few rows at a time: while runs are sought in them, the next ones come from memory.
+void Identifier::Memory::find_components(const ImageView& image, const Window& window,
+                                         const Band& band) {
+  constexpr int kRowsAtATime = 16;
+  bitmap.reshape(window.x_max - window.x_min + 1, window.y_max - window.y_min + 1);
+  runs.clear();
+  components.clear();
+  if (band.intensity_min_dn > band.intensity_max_dn) return;
+  const int height = bitmap.height_px();
+  for (int y = 0; y < height; y += kRowsAtATime) {
+    const int y_end = std::min(y + kRowsAtATime, height);
+    fill_band_rows(image, window, band, y, y_end, bitmap);
+    if (band.min_contrast_dn <= 0) take_rows(y_end < height ? y_end - 1 : height);
+  }
+  if (band.min_contrast_dn <= 0) return;
+  background.keep_contrast(image, window, band, bitmap);
+  take_rows(height);
+}
+
 IdentifyCounts Identifier::identify(const ImageView& image, const Band& band,
                                     const RegionGate& gate, Regions& regions) {
   return identify(image, {0, 0, image.width_px - 1, image.height_px - 1}, band, gate, regions);
@@ -89,11 +116,8 @@ IdentifyCounts Identifier::identify(const ImageView& image, const Window& window
   Window searched = clipped(window, image);
   if (searched.x_min > searched.x_max || searched.y_min > searched.y_max) return {};
   auto& [bitmap, background, runs, components] = *memory_;
-  fill_band_bitmap(image, searched, band, bitmap);
-  if (band.min_contrast_dn > 0) background.keep_contrast(image, searched, band, bitmap);
-  runs.scan(bitmap);
-  components.build(runs);
-  searched.y_max = searched.y_min + runs.rows_searched() - 1;
+  memory_->find_components(image, searched, band);
+  searched.y_max = searched.y_min + runs.rows_searched(bitmap.height_px()) - 1;
 
   const PixelWeights weights = band.min_contrast_dn > 0
                                    ? PixelWeights{background.excess(), 1, 0}

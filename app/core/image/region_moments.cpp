@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/core/image/arc_tangent.h"
+
 namespace dottrack::image {
 
 namespace {
@@ -31,7 +33,7 @@ void set_ellipse(Region& region, const RegionSums& sums) {
   const double radius = std::sqrt(half_difference * half_difference + xy * xy);
   region.semi_major_px = 2.0 * std::sqrt(middle + radius + 1.0 / 12.0);
   region.semi_minor_px = 2.0 * std::sqrt(std::max(middle - radius, 0.0) + 1.0 / 12.0);
-  region.angle_rad = 0.5 * std::atan2(xy, half_difference);
+  region.angle_rad = 0.5 * arc_tangent(xy, half_difference);
 }
 
 void set_box(Region& region, const Component& component, const Window& window) {
@@ -44,21 +46,28 @@ void set_box(Region& region, const Component& component, const Window& window) {
                           region.y_min == window.y_min || region.y_max == window.y_max;
 }
 
-// See Region::core_contrast_dn; at the image's edge, of the pixels that there are.
+// Mean of the 3 x 3 pixels around a pixel; at the image's edge, of those that there are.
+double mean_around(const ImageView& image, int x, int y) {
+  const int x_min = std::max(x - 1, 0);
+  const int x_max = std::min(x + 1, image.width_px - 1);
+  const int y_min = std::max(y - 1, 0);
+  const int y_max = std::min(y + 1, image.height_px - 1);
+  const int columns = x_max - x_min + 1;
+  const int rows = y_max - y_min + 1;
+  int sum = 0;
+  for (int j = y_min; j <= y_max; ++j) {
+    const std::uint8_t* pixels = image.row(j) + x_min;
+    sum += pixels[0] + (columns > 1 ? pixels[1] : 0) + (columns > 2 ? pixels[2] : 0);
+  }
+  return static_cast<double>(sum) / (rows * columns);
+}
+
+// See Region::core_contrast_dn.
 double core_contrast(const ImageView& image, const Eigen::Vector2d& centroid, int faintest_dn,
                      core::Polarity polarity) {
-  const int x = static_cast<int>(centroid.x() + 0.5);
-  const int y = static_cast<int>(centroid.y() + 0.5);
-  int sum = 0;
-  int count = 0;
-  for (int j = std::max(y - 1, 0); j <= std::min(y + 1, image.height_px - 1); ++j) {
-    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, image.width_px - 1); ++i) {
-      sum += image.at(i, j);
-      ++count;
-    }
-  }
-  const double excess = static_cast<double>(sum) / count - faintest_dn;
-  return polarity == core::Polarity::bright ? excess : -excess;
+  const double middle = mean_around(image, static_cast<int>(centroid.x() + 0.5),
+                                    static_cast<int>(centroid.y() + 0.5));
+  return polarity == core::Polarity::bright ? middle - faintest_dn : faintest_dn - middle;
 }
 
 }  // namespace

@@ -37,32 +37,40 @@ std::size_t write_positions(std::uint64_t bits, PixelKey key, Run* runs) {
 
 }  // namespace
 
-void RunList::scan(const Bitmap& bitmap) {
+void RunList::clear() {
+  size_ = 0;
   overflow_ = 0;
-  rows_searched_ = bitmap.height_px();
+  words_scanned_ = 0;
+}
+
+void RunList::scan(const Bitmap& bitmap, int y_end) {
+  const std::span<const PixelKey> occupied = bitmap.occupied();
   const std::uint64_t* pixels = bitmap.row(0);
   const std::ptrdiff_t step = bitmap.row(1) - pixels;
-  std::size_t firsts = 0;
-  std::size_t lasts = 0;
-  for (const PixelKey key : bitmap.occupied()) {
+  const PixelKey end = y_end * kRowStep;
+  std::size_t firsts = size_;
+  std::size_t lasts = size_;
+  std::size_t i = words_scanned_;
+  for (; i < occupied.size() && occupied[i] < end; ++i) {
+    const PixelKey key = occupied[i];
     const std::uint64_t* here = pixels + row(key) * step + column(key) / Bitmap::kWordBits;
     const RunEnds ends = run_ends(here - step, here, here + step);
-    if (firsts > kCapacity) [[unlikely]] {
+    if (firsts > kCapacity || overflow_ > 0) [[unlikely]] {
       overflow_ += static_cast<std::uint32_t>(std::popcount(ends.first));
       continue;
     }
     firsts += write_positions<&Run::first>(ends.first, key, runs_.data() + firsts);
     lasts += write_positions<&Run::last>(ends.last, key, runs_.data() + lasts);
   }
+  words_scanned_ = i;
   size_ = firsts;
   if (size_ > kCapacity) drop_last_row();
 }
 
 void RunList::drop_last_row() {
   const int y = row(runs_[size_ - 1].first);
-  rows_searched_ = y;
   while (size_ > 0 && row(runs_[size_ - 1].first) == y) {
-    --size_;
+    dropped_ = runs_[--size_].first;
     ++overflow_;
   }
 }

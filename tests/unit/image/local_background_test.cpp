@@ -18,7 +18,9 @@ class LocalBackgroundTest : public testing::Test {
  protected:
   // Checks every pixel of the window.
   void check(const Picture& picture, const Window& window, const Band& band) {
-    fill_band_bitmap(picture.view(), window, band, *bitmap_);
+    const int height = window.y_max - window.y_min + 1;
+    bitmap_->reshape(window.x_max - window.x_min + 1, height);
+    fill_band_rows(picture.view(), window, band, 0, height, *bitmap_);
     background_->keep_contrast(picture.view(), window, band, *bitmap_);
     const ImageView excess = background_->excess();
     const int sign = band.polarity == core::Polarity::bright ? 1 : -1;

@@ -207,7 +207,8 @@ void expect_equal(const Region& expected, const Region& region) {
   EXPECT_NEAR(region.semi_minor_px, expected.semi_minor_px, kTolerance);
   // The rounder the region, the less its angle says.
   const double roundness = expected.semi_major_px - expected.semi_minor_px;
-  EXPECT_NEAR(roundness * std::sin(region.angle_rad - expected.angle_rad), 0.0, kTolerance);
+  const double turn = std::sin(region.angle_rad - expected.angle_rad);
+  EXPECT_NEAR(roundness * turn, 0.0, 2e-8 * roundness + kTolerance);
   EXPECT_NEAR(region.core_contrast_dn, expected.core_contrast_dn, kTolerance);
   EXPECT_EQ(region.area_px, expected.area_px);
   EXPECT_EQ(region.saturated_px, expected.saturated_px);
