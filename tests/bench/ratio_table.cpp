@@ -1,0 +1,60 @@
+#include "tests/bench/ratio_table.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace dottrack::bench {
+
+bool RatioTable::ReportContext(const Context& /*context*/) {
+  return true;
+}
+
+void RatioTable::ReportRuns(const std::vector<Run>& runs) {
+  for (const Run& run : runs) {
+    const std::string name = run.run_name.str();
+    if (run.error_occurred) {
+      std::fprintf(stderr, "%s: %s\n", name.c_str(), run.error_message.c_str());
+      failed_ = true;
+      continue;
+    }
+    if (run.run_type != Run::RT_Iteration) continue;
+    const double us = 1e6 * run.cpu_accumulated_time / static_cast<double>(run.iterations);
+    names_[{run.family_index, run.per_family_instance_index}] = name;
+    double& least = time_us_.try_emplace(name, us).first->second;
+    least = std::min(least, us);
+  }
+}
+
+double RatioTable::time_us(const std::string& name) const {
+  const auto found = time_us_.find(name);
+  return found == time_us_.end() ? 0.0 : found->second;
+}
+
+void RatioTable::print_row(const std::string& name, double us) const {
+  const double s = time_us("byte_sum");
+  if (s > 0.0) {
+    std::printf("%-36s %12.3f %10.3f\n", name.c_str(), us, us / s);
+  } else {
+    std::printf("%-36s %12.3f\n", name.c_str(), us);
+  }
+}
+
+void RatioTable::print_comparison(const std::string& opencv, const std::string& ours) const {
+  const double theirs_us = time_us(opencv);
+  const double ours_us = time_us(ours);
+  if (theirs_us <= 0.0 || ours_us <= 0.0) return;
+  std::printf("%-36s %8.1f x %s\n", opencv.c_str(), theirs_us / ours_us, ours.c_str());
+}
+
+void RatioTable::Finalize() {
+  std::printf("%-36s %12s %10s\n", "", "us", "byte_sums");
+  for (const auto& [place, name] : names_) print_row(name, time_us(name));
+  std::printf("\n");
+  for (const char* scene : {"sparse", "heavy"}) {
+    const std::string ours = std::string("identify/") + scene;
+    print_comparison(std::string("opencv/contours/") + scene, ours);
+    print_comparison(std::string("opencv/connected_components/") + scene, ours);
+  }
+}
+
+}  // namespace dottrack::bench
