@@ -122,6 +122,7 @@ std::string header(const std::vector<std::string>& cameras, std::size_t dots) {
     }
   }
   for (const auto& [name, value] : count_columns({})) line << name;
+  line << "chance_matches";
   line.end();
   return text;
 }
@@ -147,6 +148,7 @@ void CsvWriter::do_write(const telemetry::CycleRecord& record) {
          << camera.overflow;
   }
   for (const auto& [name, value] : count_columns(result.acquisition)) line << value;
+  line << result.acquisition.chance_matches;
   line.end();
   file_.write(line_);
 }

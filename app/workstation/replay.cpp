@@ -72,9 +72,12 @@ class Run {
     OutputFile csv;
   };
 
-  Run(Opened opened, std::unique_ptr<rtos::VirtualClock> clock,
+  Run(const ReplayOptions& options, Opened opened, std::unique_ptr<rtos::VirtualClock> clock,
       std::unique_ptr<drivers::CandumpCanBus> can)
-      : opened_(std::move(opened)), clock_(std::move(clock)), can_(std::move(can)) {
+      : options_(options),
+        opened_(std::move(opened)),
+        clock_(std::move(clock)),
+        can_(std::move(can)) {
     recorder_.add(tum_);
     recorder_.add(csv_);
     recorder_.add(tally_);
@@ -93,16 +96,17 @@ class Run {
     }
     recorder_.drain();
     note(can_->flush());
+    if (tally_.first_lock_tick() == static_cast<std::int64_t>(tick)) draw("first_lock");
     return fault_.empty() && !opened_.tum.failed() && !opened_.csv.failed();
   }
 
-  ReplaySummary finish(const ReplayOptions& options) {
+  ReplaySummary finish() {
     note(opened_.tum.finish());
     note(opened_.csv.finish());
     const RunFacts facts = {heap_calls_, AllocationTrap::is_complete(),
                             opened_.grabber->bad_frames(), tracker_.footprint_bytes()};
-    note(write_file(options.out / "report.json", report_json(opened_.config, tally_, facts)));
-    if (options.pictures) note(write_pictures(options.out / "pictures"));
+    note(write_file(options_.out / "report.json", report_json(opened_.config, tally_, facts)));
+    draw("");
     return summary(facts);
   }
 
@@ -111,6 +115,11 @@ class Run {
     if (!written && fault_.empty()) fault_ = written.error().message;
   }
 
+  void draw(const char* folder) {
+    if (options_.pictures) note(write_pictures(options_.out / "pictures" / folder));
+  }
+
+  // Of the last tick.
   Result<void> write_pictures(const fs::path& folder) const {
     if (const auto made = make_folder(folder); !made) return made;
     for (std::size_t i = 0; i < opened_.config.cameras.size(); ++i) {
@@ -140,6 +149,7 @@ class Run {
     return summary;
   }
 
+  ReplayOptions options_;
   Opened opened_;
   std::unique_ptr<rtos::VirtualClock> clock_;
   std::unique_ptr<drivers::CandumpCanBus> can_;
@@ -177,7 +187,7 @@ Result<std::unique_ptr<Run>> open_run(const ReplayOptions& options) {
   auto can = drivers::CandumpCanBus::open(options.out / "can.log", *clock);
   if (!can) return tl::unexpected<Error>(can.error());
   Run::Opened opened{std::move(*config), std::move(*grabber), std::move(*tum), std::move(*csv)};
-  return std::make_unique<Run>(std::move(opened), std::move(clock), std::move(*can));
+  return std::make_unique<Run>(options, std::move(opened), std::move(clock), std::move(*can));
 }
 
 }  // namespace
@@ -191,7 +201,7 @@ Result<ReplaySummary> replay(const ReplayOptions& options) {
   for (std::uint64_t tick = 0; tick < ticks; ++tick) {
     if (!(*run)->tick(tick)) break;
   }
-  return (*run)->finish(options);
+  return (*run)->finish();
 }
 
 }  // namespace dottrack::workstation

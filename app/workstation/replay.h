@@ -18,7 +18,7 @@ struct ReplayOptions {
   std::filesystem::path frames;
   std::filesystem::path out;
   int repeat = 1;        // the last set of images is shown this many times
-  bool pictures = true;  // overlay pictures of the last tick
+  bool pictures = true;  // overlay pictures of the first lock and of the last tick
 };
 
 struct ReplaySummary {
@@ -34,10 +34,10 @@ struct ReplaySummary {
   std::string output_fault;  // one line when the results could not be written, else empty
 };
 
-// Writes poses.tum, poses.csv, can.log, report.json and pictures/<camera>.png into options.out. The
-// same images give the same bytes, but for report.json, which tells how long things took. An error
-// is wrong input: nothing was replayed. An image that cannot be read is one line on standard error
-// and a camera that does not deliver.
+// Writes poses.tum, poses.csv, can.log, report.json and pictures/ into options.out. The same images
+// give the same bytes, but for report.json, which tells how long things took. An error is wrong
+// input: nothing was replayed. An image that cannot be read is one line on standard error and a
+// camera that does not deliver.
 Result<ReplaySummary> replay(const ReplayOptions& options);
 
 }  // namespace dottrack::workstation

@@ -44,7 +44,7 @@ class CsvFile : public testing::Test {
 
 TEST_F(CsvFile, EveryColumnHasANameOfItsOwn) {
   EXPECT_EQ(std::set<std::string>(names_.begin(), names_.end()).size(), names_.size());
-  EXPECT_EQ(names_.size(), 8U + 8 + 21 + 3 * (5 + 2 * 3) + 2 * 5 + 11);
+  EXPECT_EQ(names_.size(), 8U + 8 + 21 + 3 * (5 + 2 * 3) + 2 * 5 + 12);
 }
 
 TEST_F(CsvFile, ATickWithAPoseHasItsNumbers) {
@@ -85,6 +85,7 @@ TEST_F(CsvFile, CamerasAndAcquisitionAreThere) {
   EXPECT_EQ(row.at("right_delivered"), "0");
   EXPECT_EQ(row.at("right_overflow"), "1");
   EXPECT_EQ(row.at("pairs_tested"), "1234");
+  EXPECT_EQ(row.at("chance_matches"), "0.25");
 }
 
 TEST_F(CsvFile, ATickWithoutAPoseHasItsReasonAndEmptyFields) {

@@ -29,6 +29,7 @@ inline telemetry::CycleRecord record_with_pose(std::uint64_t tick) {
   result.cameras[0] = {true, true, 7, 9, false};
   result.cameras[1] = {false, false, 0, 0, true};
   result.acquisition.pairs_tested = 1234;
+  result.acquisition.chance_matches = 0.25;
   return record;
 }
 

@@ -89,7 +89,7 @@ TEST_F(Replay, TheSameImagesGiveTheSameBytes) {
     ++compared;
     EXPECT_TRUE(text_of(entry.path()) == text_of(out("two") / name)) << name;
   }
-  EXPECT_EQ(compared, 3 + 4);  // poses.tum, poses.csv, can.log and a picture a camera
+  EXPECT_EQ(compared, 3 + 2 * 4);  // poses.tum, poses.csv, can.log and two pictures a camera
 }
 
 TEST_F(Replay, RepeatShowsTheLastSetThatManyTimes) {
@@ -125,11 +125,15 @@ TEST_F(Replay, TheCanLogHoldsEveryPose) {
   EXPECT_EQ(messages, kTicks);
 }
 
-TEST_F(Replay, APictureACameraIsWritten) {
+TEST_F(Replay, EveryCameraHasAPictureOfTheFirstLockAndOfTheLastTick) {
   ASSERT_EQ(replay("run").status, 0);
   for (std::size_t i = 0; i < 4; ++i) {
-    const std::string png = text_of(out("run") / "pictures" / (DiscScene::camera_name(i) + ".png"));
-    EXPECT_EQ(png.substr(1, 3), "PNG");
+    const std::string name = DiscScene::camera_name(i) + ".png";
+    const std::string last = text_of(out("run") / "pictures" / name);
+    const std::string first = text_of(out("run") / "pictures" / "first_lock" / name);
+    EXPECT_EQ(last.substr(1, 3), "PNG");
+    EXPECT_EQ(first.substr(1, 3), "PNG");
+    EXPECT_TRUE(first != last);  // the vehicle moved
   }
 }
 
