@@ -27,7 +27,7 @@ core::Camera ceiling_camera(const Vector3d& place, const Vector3d& towards) {
   camera.width_px = kSetWidth;
   camera.height_px = kSetHeight;
   camera.distance_min_m = 2.0;
-  camera.distance_max_m = 12.0;
+  camera.distance_max_m = 14.0;
   camera.intensity_min_dn = kBandMin;
   return camera;
 }
@@ -43,10 +43,9 @@ const std::array<Vector3d, 8> kLayout = {
 core::Rig room_rig(std::size_t dots) {
   core::Rig rig;
   for (std::size_t i = 0; i < kRoomCameras; ++i) {
-    const auto column = static_cast<double>(i % 4);
-    const auto row = static_cast<double>(i / 4);
-    const Vector3d place(2.6 * column, 3.1 * row, 4.8 + 0.1 * row);
-    rig.cameras.push_back(ceiling_camera(place, {4.0 + 0.2 * column, 3.0 - 0.2 * row, 0.0}));
+    const double x = 1.0 + 4.0 * static_cast<double>(i % 6);
+    const double y = i < 6 ? 0.0 : 9.0;
+    rig.cameras.push_back(ceiling_camera({x, y, 5.0}, {0.7 * x + 0.3 * 11.0, 4.5, 0.0}));
   }
   for (std::size_t i = 0; i < dots; ++i) rig.target.dots.push_back({kLayout[i], kDiameter_m, {}});
   return rig;
@@ -54,8 +53,8 @@ core::Rig room_rig(std::size_t dots) {
 
 Vector3d point_in_room(std::mt19937& random) {
   std::uniform_real_distribution<double> part(0.0, 1.0);
-  const double x = 0.5 + 7.0 * part(random);
-  const double y = 0.5 + 5.0 * part(random);
+  const double x = 22.0 * part(random);
+  const double y = 9.0 * part(random);
   return {x, y, part(random)};
 }
 
