@@ -6,18 +6,9 @@
 #include <exception>
 #include <string>
 
-#if __has_include("app/workstation/camera_command.h")
 #include "app/workstation/camera_command.h"
-#define HAVE_CAMERA
-#endif
-#if __has_include("app/workstation/replay_command.h")
-#include "app/workstation/replay_command.h"
-#define HAVE_REPLAY
-#endif
-#if __has_include("app/workstation/demo_command.h")
 #include "app/workstation/demo_command.h"
-#define HAVE_DEMO
-#endif
+#include "app/workstation/replay_command.h"
 
 namespace {
 
@@ -30,22 +21,34 @@ void print_error(const std::string& message) {
   std::fprintf(stderr, "dottrack: %s\n", line.c_str());
 }
 
-std::string where_help_is(const CLI::App& app) {
-  std::string command = "dottrack";
-  for (const CLI::App* sub : app.get_subcommands()) command += " " + sub->get_name();
-  return "; see " + command + " --help";
+// The command line up to the command that was meant: "dottrack camera project".
+std::string command_of(const CLI::App& app) {
+  std::string command = app.get_name();
+  for (const CLI::App* sub : app.get_subcommands()) command += " " + command_of(*sub);
+  return command;
 }
 
-void add_commands([[maybe_unused]] CLI::App& app, [[maybe_unused]] int& exit_status) {
-#ifdef HAVE_CAMERA
-  dottrack::workstation::add_camera_command(app, exit_status);
-#endif
-#ifdef HAVE_REPLAY
+std::string commands_of(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* sub : app.get_subcommands(nullptr)) {
+    names += (names.empty() ? "" : ", ") + sub->get_name();
+  }
+  return names;
+}
+
+std::string explain(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (first.empty()) return "no command; expected one of " + commands_of(app);
+  if (app.get_subcommands().empty()) {
+    return "unknown command \"" + first + "\"; expected one of " + commands_of(app);
+  }
+  return error.what() + ("; see " + command_of(app) + " --help");
+}
+
+void add_commands(CLI::App& app, int& exit_status) {
   dottrack::workstation::add_replay_command(app, exit_status);
-#endif
-#ifdef HAVE_DEMO
   dottrack::workstation::add_demo_command(app, exit_status);
-#endif
+  dottrack::workstation::add_camera_command(app, exit_status);
 }
 
 int run(int argc, char** argv) {
@@ -58,7 +61,7 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    print_error(error.what() + where_help_is(app));
+    print_error(explain(app, error, argc, argv));
     return kWrongUse;
   }
   return exit_status;
