@@ -28,8 +28,9 @@ struct DotPosition {
 };
 
 // Weighted least squares over all views; while the result does not project into the bounding box of
-// every view, the view it misses most is dropped and the rest solved again. False when fewer than
-// two views agree; `position` is then as it was.
+// every view, or one of four or more views stands far out from the agreement of the others, the
+// view it misses most is dropped and the rest solved again. False when fewer than two views agree;
+// `position` is then as it was.
 bool locate_dot(Views views, DotPosition& position);
 
 }  // namespace dottrack::estimation
