@@ -11,10 +11,10 @@ namespace dottrack::hal {
 
 struct CanFrame {
   std::uint32_t id = 0;
-  bool extended = false;      // 29-bit identifier
-  bool fd = false;            // CAN FD frame
+  bool extended = false;  // 29-bit identifier
+  bool fd = false;        // CAN FD frame
   bool bit_rate_switch = false;
-  std::uint8_t length = 0;    // bytes used in data: 0 to 8, FD up to 64
+  std::uint8_t length = 0;  // bytes used in data: 0 to 8, FD up to 64
   std::array<std::uint8_t, 64> data{};
 
   std::span<const std::uint8_t> payload() const { return {data.data(), length}; }
@@ -37,7 +37,8 @@ class CanBus {
   virtual ~CanBus() = default;
 
   SendResult send(const CanFrame& frame, Time deadline) { return do_send(frame, deadline); }
-  // Takes one received frame if there is one; false when there is none. Own frames do not come back.
+  // Takes one received frame if there is one; false when there is none. Own frames do not come
+  // back.
   bool receive(CanFrame& frame) { return do_receive(frame); }
   CanState state() const { return do_state(); }
 

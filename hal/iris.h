@@ -21,7 +21,8 @@ class Iris {
   Iris& operator=(const Iris&) = delete;
   virtual ~Iris() = default;
 
-  // Overrides the auto-iris and moves towards an opening in [0, 1]; false when there is no such iris.
+  // Overrides the auto-iris and moves towards an opening in [0, 1]; false when there is no such
+  // iris.
   bool move_to(std::size_t camera, double opening) { return do_move_to(camera, opening); }
   // Gives the lens back to its own auto-iris.
   bool release_to_auto(std::size_t camera) { return do_release_to_auto(camera); }

@@ -18,6 +18,8 @@ struct MonotonicTimeline {
 
 using Time = MonotonicTimeline::time_point;
 
-constexpr double to_seconds(Duration d) { return std::chrono::duration<double>(d).count(); }
+constexpr double to_seconds(Duration d) {
+  return std::chrono::duration<double>(d).count();
+}
 
 }  // namespace dottrack
