@@ -177,7 +177,7 @@ ValueSlope pupil_shift(double theta) noexcept {
   if (theta < 0.03) {  // the series: the closed form's derivative loses its digits to cancellation
     const double t2 = theta * theta;
     return {t2 * (1.0 / 6.0 + t2 * (7.0 / 360.0 + t2 * (31.0 / 15120.0))),
-            theta * (1.0 / 3.0 + t2 * (7.0 / 90.0 + t2 * (31.0 / 2520.0 + t2 * 127.0 / 75600.0)))};
+            theta * (1.0 / 3.0 + t2 * (7.0 / 90.0 + t2 * (31.0 / 2520.0)))};
   }
   const double sine = std::sin(theta);
   return {theta / sine - 1.0, (sine - theta * std::cos(theta)) / (sine * sine)};

@@ -170,10 +170,26 @@ TEST(LensDomain, BeyondAFoldThereIsNoSecondImage) {
   EXPECT_EQ(unproject_status(wavy, {320.0 + 500.0 * 2.0, 240.0}), OpticsStatus::outside_domain);
 }
 
+const Eigen::Vector3d kTilted = Eigen::Vector3d(0.1, 0.0, 1.0).normalized();
+
 TEST(LensDomain, DistortionBehindTheImagePlaneIsOutside) {
-  Cahvor tilted = distorting({0, 0, 0.5});
-  tilted.o = Eigen::Vector3d(0.1, 0.0, 1.0).normalized();
-  EXPECT_EQ(project_status(tilted, at_angle(85.0)), OpticsStatus::outside_domain);
+  Cahvor cahvor = distorting({0, 0, 0.5});
+  cahvor.o = kTilted;
+  EXPECT_EQ(project_status(cahvor, at_angle(85.0)), OpticsStatus::outside_domain);
+  Cahvore cahvore = lens(1.0, {0, 0.1, 0});
+  cahvore.o = kTilted;
+  EXPECT_EQ(project_status(cahvore, at_angle(85.0)), OpticsStatus::outside_domain);
+}
+
+// Half the radius in the image: a pixel 82 degrees from O comes from 86, which is 92 from A.
+TEST(LensDomain, ARayBehindThePlaneOfTheCentreIsNone) {
+  Cahvor halving = distorting({-0.5, 0, 0});
+  halving.o = kTilted;
+  const auto pixel_at = [](double degrees) {
+    return Eigen::Vector2d(320.0 + 500.0 * std::tan(degrees * kDegree), 240.0);
+  };
+  EXPECT_EQ(unproject_status(halving, pixel_at(80.0)), OpticsStatus::ok);
+  EXPECT_EQ(unproject_status(halving, pixel_at(87.7)), OpticsStatus::outside_domain);
 }
 
 TEST(LensDomain, PerspectiveEndsAtNinetyDegrees) {
