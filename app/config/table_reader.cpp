@@ -84,7 +84,7 @@ void TableReader::complain_type(std::string_view key, std::string_view expected)
   complain(key, kind_of(*table_.get(key)), expected);
 }
 
-std::string TableReader::text(std::string_view key, std::optional<std::string> fallback) {
+std::string TableReader::text(std::string_view key, const std::optional<std::string>& fallback) {
   const toml::node* node = table_.get(key);
   if (node == nullptr) {
     if (!fallback) complain_missing(key, "a text");

@@ -36,7 +36,7 @@ class TableReader {
   TableReader(Complaint& complaint, const toml::table& table, std::string title,
               std::initializer_list<std::string_view> keys);
 
-  std::string text(std::string_view key, std::optional<std::string> fallback = std::nullopt);
+  std::string text(std::string_view key, const std::optional<std::string>& fallback = std::nullopt);
   bool boolean(std::string_view key, bool fallback);
   double number(std::string_view key, std::optional<double> fallback, const NumberRule& rule);
   int integer(std::string_view key, int fallback, const IntegerRule& rule);
