@@ -28,7 +28,7 @@ Lens make_lens(RandomStream& random, int width_px, int height_px) {
   lens.focal_y_px = lens.focal_x_px * random.uniform(0.998, 1.002);
   lens.centre_x_px = 0.5 * (width_px - 1) + random.uniform(-6.0, 6.0);
   lens.centre_y_px = 0.5 * (height_px - 1) + random.uniform(-5.0, 5.0);
-  lens.axis = Vector3d(random.uniform(-0.008, 0.008), random.uniform(-0.008, 0.008), 1.0);
+  lens.axis = Vector3d{random.uniform(-0.008, 0.008), random.uniform(-0.008, 0.008), 1.0};
   lens.radial = {random.uniform(-0.001, 0.001), random.uniform(-0.16, -0.08),
                  random.uniform(0.015, 0.03)};
   return lens;
@@ -36,11 +36,11 @@ Lens make_lens(RandomStream& random, int width_px, int height_px) {
 
 SceneCamera make_camera(const CeilingOptions& options, std::size_t spot) {
   RandomStream random(options.seed, 0xCA0 + spot);
-  const Vector3d centre(kSpots[spot][0] * options.half_length_m + random.uniform(-0.15, 0.15),
+  const Vector3d centre{kSpots[spot][0] * options.half_length_m + random.uniform(-0.15, 0.15),
                         kSpots[spot][1] * options.half_width_m + random.uniform(-0.15, 0.15),
-                        options.height_m + random.uniform(-0.2, 0.2));
-  const Vector3d aim(0.12 * centre.x() + random.uniform(-0.2, 0.2),
-                     0.12 * centre.y() + random.uniform(-0.2, 0.2), 0.2);
+                        options.height_m + random.uniform(-0.2, 0.2)};
+  const Vector3d aim{0.12 * centre.x() + random.uniform(-0.2, 0.2),
+                     0.12 * centre.y() + random.uniform(-0.2, 0.2), 0.2};
   const Eigen::Matrix3d rotation = looking_at(centre, aim, radians(random.uniform(-4.0, 4.0)));
   const Lens lens = make_lens(random, options.width_px, options.height_px);
   SensorModel sensor;

@@ -76,7 +76,7 @@ Scene make_random_scene(const RandomSceneOptions& options) {
   scene.world = empty_hall(options.seed);
   scene.target = random_layout(options.dots, options.seed);
   if (options.with_vehicle) scene.world.vehicle = make_rover(scene.target);
-  const Vector2d start(random.uniform(-2.4, 2.4), random.uniform(-1.6, 1.6));
+  const Vector2d start{random.uniform(-2.4, 2.4), random.uniform(-1.6, 1.6)};
   scene.world.drive = starting_at({}, start, random.uniform(-kPi, kPi));
   furnish(scene.world,
           {.seed = options.seed,

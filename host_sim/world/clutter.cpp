@@ -61,8 +61,8 @@ class Floor {
 
 Vector3d random_direction(RandomStream& random) {
   for (;;) {
-    const Vector3d v(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
-                     random.uniform(-1.0, 1.0));
+    const Vector3d v{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
+                     random.uniform(-1.0, 1.0)};
     if (v.squaredNorm() > 0.01 && v.squaredNorm() < 1.0) return v.normalized();
   }
 }
@@ -98,8 +98,8 @@ void add_rocks(const ClutterOptions& options, Floor& floor, std::vector<Object>&
 }
 
 void add_box(RandomStream& random, const Vector2d& place, std::vector<Object>& objects) {
-  const Vector3d size(random.uniform(0.25, 0.55), random.uniform(0.2, 0.4),
-                      random.uniform(0.15, 0.45));
+  const Vector3d size{random.uniform(0.25, 0.55), random.uniform(0.2, 0.4),
+                      random.uniform(0.15, 0.45)};
   const Eigen::Matrix3d rotation = turned(random.uniform(0.0, kPi));
   const Pattern pattern = random.uniform() < 0.25 ? Pattern::stripes : Pattern::plain;
   objects.push_back(make_object(make_box({{place.x(), place.y(), 0.5 * size.z()}, rotation}, size),

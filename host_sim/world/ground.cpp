@@ -24,7 +24,7 @@ double pebble(const Eigen::Vector2d& p, std::uint64_t seed) {
   RandomStream random(mix(seed, static_cast<std::uint64_t>(static_cast<std::int64_t>(cell.x()))),
                       static_cast<std::uint64_t>(static_cast<std::int64_t>(cell.y())));
   if (random.uniform() > 0.22) return 0.0;
-  const Eigen::Vector2d middle(random.uniform(0.25, 0.75), random.uniform(0.25, 0.75));
+  const Eigen::Vector2d middle{random.uniform(0.25, 0.75), random.uniform(0.25, 0.75)};
   const double radius_m = random.uniform(0.006, 0.018);
   const double change =
       random.uniform() < 0.75 ? random.uniform(-0.55, -0.2) : random.uniform(0.15, 0.45);

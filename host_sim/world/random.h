@@ -23,6 +23,8 @@ constexpr double unit_interval(std::uint64_t word) {
   return static_cast<double>(word >> 11U) * 0x1.0p-53;
 }
 
+// Draw more than one number in an expression only between braces, Vector2d{r.uniform(), ...}: the
+// order of a call's arguments is the compiler's choice.
 class RandomStream {
  public:
   constexpr RandomStream(std::uint64_t seed, std::uint64_t stream) : key_(mix(seed, stream)) {}

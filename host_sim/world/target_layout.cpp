@@ -47,7 +47,7 @@ bool has_room_on_deck(const Eigen::Vector2d& p) {
 TargetLayout throw_dots(int dots, RandomStream& random) {
   TargetLayout layout;
   for (int attempt = 0; attempt < 4000 && static_cast<int>(layout.size()) < dots; ++attempt) {
-    const Eigen::Vector2d p(random.uniform(-0.74, 0.66), random.uniform(-0.86, 0.86));
+    const Eigen::Vector2d p{random.uniform(-0.74, 0.66), random.uniform(-0.86, 0.86)};
     const auto apart = [&](const TargetDot& dot) {
       return (dot.centre_m.head<2>() - p).norm() >= kBetweenDots_m;
     };

@@ -150,7 +150,9 @@ TEST(RendererTest, ADotSeenFromAsideIsWhereItsOutlineSays) {
       if (crowded) continue;
       const Centre wanted = expected(camera, discs[i]);
       const Centre measured = measure(image, wanted.pixel);
-      EXPECT_LT((measured.pixel - wanted.pixel).norm(), 0.02) << scene_camera.name << " " << i;
+      // Rounding to whole grey levels alone shifts the smallest by 0.02 px.
+      const double bound_px = wanted.area_px < 20.0 ? 0.035 : 0.02;
+      EXPECT_LT((measured.pixel - wanted.pixel).norm(), bound_px) << scene_camera.name << " " << i;
       EXPECT_NEAR(measured.area_px / wanted.area_px, 1.0, 0.02) << scene_camera.name << " " << i;
       squares += (measured.pixel - wanted.pixel).squaredNorm();
       ++dots;
@@ -158,7 +160,7 @@ TEST(RendererTest, ADotSeenFromAsideIsWhereItsOutlineSays) {
   }
   EXPECT_GE(dots, 60);
   const double rms_px = std::sqrt(squares / std::max(dots, 1));
-  EXPECT_LT(rms_px, 0.006);
+  EXPECT_LT(rms_px, 0.008);
   RecordProperty("rms_px", std::to_string(rms_px));
 }
 
@@ -194,7 +196,10 @@ TEST(RendererTest, TicksCamerasAndSeedsHaveNoiseOfTheirOwn) {
 }
 
 TEST(RendererTest, TheVehicleHidesWhatIsUnderItAndThrowsAShadow) {
-  Scene scene = make_random_scene(small_scene());
+  RandomSceneOptions options = small_scene();
+  options.width_px = 320;
+  options.height_px = 240;
+  Scene scene = make_random_scene(options);
   for (SceneCamera& camera : scene.cameras) camera.sensor.noise = false;
   Scene empty = scene;
   empty.world.vehicle.reset();
@@ -209,7 +214,7 @@ TEST(RendererTest, TheVehicleHidesWhatIsUnderItAndThrowsAShadow) {
       darker += with[i].pixels()[p] + 15 < without[i].pixels()[p] ? 1 : 0;
       brighter += with[i].pixels()[p] > without[i].pixels()[p] + 15 ? 1 : 0;
     }
-    EXPECT_GT(darker, 100) << i;  // the deck and the shadow on the sand
+    EXPECT_GT(darker, 500) << i;  // the deck and the shadow on the sand
     EXPECT_GT(brighter, 5) << i;  // the dots
   }
 }
@@ -225,7 +230,7 @@ TEST(RendererTest, TheBytesAreTheSameEverywhere) {
   const Scene scene = make_random_scene(small_scene());
   std::vector<GreyImage> images;
   SceneRenderer(scene).render(1, images);
-  EXPECT_EQ(fingerprint(images[0]), 1371978071984101500ULL);
+  EXPECT_EQ(fingerprint(images[0]), 15705935331500819422ULL);
 }
 
 }  // namespace
