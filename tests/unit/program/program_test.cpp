@@ -1,0 +1,79 @@
+// The program dottrack as a user meets it: exit status and what goes to which stream.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "tests/support/temporary_folder.h"
+
+namespace dottrack {
+namespace {
+
+using testing::HasSubstr;
+
+struct Outcome {
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+Outcome dottrack(const std::string& arguments) {
+  const test::TemporaryFolder folder;
+  const auto out = folder.path() / "out";
+  const auto err = folder.path() / "err";
+  const std::string command = std::string("'") + DOTTRACK_PROGRAM + "' " + arguments + " >'" +
+                              out.string() + "' 2>'" + err.string() + "' </dev/null";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
+}
+
+void expect_wrong_use(const std::string& arguments, const std::string& line) {
+  const Outcome outcome = dottrack(arguments);
+  EXPECT_EQ(outcome.status, 2) << arguments;
+  EXPECT_EQ(outcome.out, "") << arguments;
+  EXPECT_EQ(outcome.err, "dottrack: " + line + "\n") << arguments;
+}
+
+TEST(Program, AnswersWrongUseWithOneLineAndStatus2) {
+  expect_wrong_use("", "no command; expected one of replay, demo, camera");
+  expect_wrong_use("fly", "unknown command \"fly\"; expected one of replay, demo, camera");
+  expect_wrong_use("--fly", "unknown command \"--fly\"; expected one of replay, demo, camera");
+  expect_wrong_use("camera project", "MODEL is required; see dottrack camera project --help");
+  expect_wrong_use("replay rig.toml --out o", "--frames is required; see dottrack replay --help");
+}
+
+TEST(Program, AnswersWrongInputWithOneLineAndStatus2) {
+  expect_wrong_use("replay none.toml --frames f --out o",
+                   "none.toml: no such file; expected a rig file");
+  expect_wrong_use("camera project none.cahv",
+                   "none.cahv: no such file; expected a camera model in JPL's text format");
+}
+
+TEST(Program, HelpsOnStandardOutput) {
+  const Outcome outcome = dottrack("--help");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err, "");
+  for (const char* command : {"replay", "demo", "camera"}) {
+    EXPECT_THAT(outcome.out, HasSubstr(command));
+  }
+}
+
+TEST(Program, SaysItsVersion) {
+  const Outcome outcome = dottrack("--version");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.out, testing::MatchesRegex("dottrack [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+}  // namespace
+}  // namespace dottrack
