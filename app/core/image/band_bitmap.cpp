@@ -61,7 +61,7 @@ HWY_INLINE std::uint64_t band_tail(const std::uint8_t* pixels, int count, int be
   }
   std::array<std::uint8_t, 64> copy{};
   std::memcpy(copy.data(), pixels, static_cast<std::size_t>(count));
-  return band_word(copy.data(), in_band);
+  return band_word(copy.data(), in_band) & (~std::uint64_t{0} >> static_cast<unsigned>(missing));
 }
 
 template <class Test>
@@ -69,26 +69,26 @@ HWY_INLINE void fill(const ImageView& image, const Window& window, Test in_band,
                      int y_end, Bitmap& bitmap) {
   const int full_words = bitmap.width_px() / 64;
   const int tail = bitmap.width_px() % 64;
-  const std::uint64_t tail_mask = bitmap.last_word_mask();
   const std::ptrdiff_t ahead = kRowsAhead * image.stride_bytes;
   PixelKey* occupied = bitmap.occupied_end();
   for (int y = y_first; y < y_end; ++y) {
     const std::uint8_t* pixels = image.row(window.y_min + y) + window.x_min;
     std::uint64_t* words = bitmap.row(y);
+    const auto put = [words, y, &occupied](int w, std::uint64_t word) HWY_ATTR {
+      words[w] = word;
+      *occupied = y * kRowStep + 64 * w;
+      occupied += word != 0;  // whether it is cannot be predicted, so there is no branch for it
+    };
 #pragma GCC unroll 4
     for (int w = 0; w < full_words; ++w) {
       hwy::Prefetch(pixels + 64 * w + ahead);
-      const std::uint64_t word = band_word(pixels + 64 * w, in_band);
-      words[w] = word;
-      *occupied = y * kRowStep + 64 * w;
-      occupied += word != 0;
+      put(w, band_word(pixels + 64 * w, in_band));
     }
     if (tail != 0) {
       const int x = 64 * full_words;
-      words[full_words] = band_tail(pixels + x, tail, window.x_min + x, in_band) & tail_mask;
-      *occupied = y * kRowStep + x;
-      occupied += words[full_words] != 0;
+      put(full_words, band_tail(pixels + x, tail, window.x_min + x, in_band));
     }
+    words[bitmap.words_per_row()] = 0;
   }
   bitmap.set_occupied_end(occupied);
 }

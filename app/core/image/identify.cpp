@@ -117,7 +117,7 @@ IdentifyCounts Identifier::identify(const ImageView& image, const Window& window
   if (searched.x_min > searched.x_max || searched.y_min > searched.y_max) return {};
   auto& [bitmap, background, runs, components] = *memory_;
   memory_->find_components(image, searched, band);
-  searched.y_max = searched.y_min + runs.rows_searched(bitmap.height_px()) - 1;
+  searched.y_max = searched.y_min + runs.rows_searched() - 1;
 
   const PixelWeights weights = band.min_contrast_dn > 0
                                    ? PixelWeights{background.excess(), 1, 0}

@@ -48,11 +48,26 @@ void LocalBackground::count_pixels(const ImageView& image, int y) {
   }
 }
 
+namespace {
+
+// Of the words that were listed.
+void drop_empty_words(Bitmap& bitmap) {
+  const std::span<const PixelKey> listed = bitmap.occupied();
+  bitmap.set_occupied_end(listed.data());
+  PixelKey* end = bitmap.occupied_end();
+  for (const PixelKey key : listed) {
+    *end = key;
+    end += *bitmap.word(key) != 0;
+  }
+  bitmap.set_occupied_end(end);
+}
+
+}  // namespace
+
 void LocalBackground::keep_contrast(const ImageView& image, const Window& window, const Band& band,
                                     Bitmap& bitmap) {
   start(image, window, band);
   const int contrast_dn = std::min(band.min_contrast_dn, 256);
-  PixelKey* occupied = bitmap.occupied_begin();
   for (int y = 0; y < height_px_; ++y) {
     slide_to(image, window.y_min + y);
     const BoxRow row{image.row(window.y_min + y) + window.x_min,
@@ -63,14 +78,9 @@ void LocalBackground::keep_contrast(const ImageView& image, const Window& window
                      2 * radius_ + 1,
                      counts_.data(),
                      per_count_.data()};
-    std::uint64_t* words = bitmap.row(y);
-    image::keep_contrast(row, bitmap.words_per_row(), words, excess_.data() + y * stride_);
-    for (int w = 0; w < bitmap.words_per_row(); ++w) {
-      *occupied = y * kRowStep + w * Bitmap::kWordBits;
-      occupied += words[w] != 0;
-    }
+    image::keep_contrast(row, bitmap.words_per_row(), bitmap.row(y), excess_.data() + y * stride_);
   }
-  bitmap.set_occupied_end(occupied);
+  drop_empty_words(bitmap);
 }
 
 }  // namespace dottrack::image

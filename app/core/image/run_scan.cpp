@@ -1,24 +1,11 @@
 #include "app/core/image/run_scan.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace dottrack::image {
 
 namespace {
-
-// The ends of the runs in one word: a set pixel whose left (right) neighbour is clear, unless no
-// neighbour at all is set.
-struct RunEnds {
-  std::uint64_t first;
-  std::uint64_t last;
-};
-
-RunEnds run_ends(const std::uint64_t* up, const std::uint64_t* here, const std::uint64_t* down) {
-  const std::uint64_t left = *here << 1U | *(here - 1) >> 63U;
-  const std::uint64_t right = *here >> 1U | *(here + 1) << 63U;
-  const std::uint64_t beside = *up | *down;
-  return {*here & ~left & (right | beside), *here & ~right & (left | beside)};
-}
 
 // Writes the positions of the set bits, and garbage behind them; returns how many. Two without a
 // branch: more in one word are rare, and whether there are none, one or two cannot be predicted.
@@ -39,40 +26,67 @@ std::size_t write_positions(std::uint64_t bits, PixelKey key, Run* runs) {
 
 void RunList::clear() {
   size_ = 0;
+  lasts_ = 0;
   overflow_ = 0;
   words_scanned_ = 0;
+  rows_searched_ = 0;
 }
 
 void RunList::scan(const Bitmap& bitmap, int y_end) {
-  const std::span<const PixelKey> occupied = bitmap.occupied();
-  const std::uint64_t* pixels = bitmap.row(0);
-  const std::ptrdiff_t step = bitmap.row(1) - pixels;
-  const PixelKey end = y_end * kRowStep;
-  std::size_t firsts = size_;
-  std::size_t lasts = size_;
-  std::size_t i = words_scanned_;
-  for (; i < occupied.size() && occupied[i] < end; ++i) {
-    const PixelKey key = occupied[i];
-    const std::uint64_t* here = pixels + row(key) * step + column(key) / Bitmap::kWordBits;
-    const RunEnds ends = run_ends(here - step, here, here + step);
-    if (firsts > kCapacity || overflow_ > 0) [[unlikely]] {
-      overflow_ += static_cast<std::uint32_t>(std::popcount(ends.first));
-      continue;
-    }
-    firsts += write_positions<&Run::first>(ends.first, key, runs_.data() + firsts);
-    lasts += write_positions<&Run::last>(ends.last, key, runs_.data() + lasts);
+  const std::span<const PixelKey> listed = bitmap.occupied();
+  const auto stop = std::lower_bound(listed.begin() + static_cast<std::ptrdiff_t>(words_scanned_),
+                                     listed.end(), y_end * kRowStep);
+  const auto words_end = static_cast<std::size_t>(stop - listed.begin());
+  if (overflow_ == 0) rows_searched_ = y_end;
+  while (words_scanned_ < words_end) {
+    const std::size_t count = std::min(words_end - words_scanned_, kMaxWords);
+    const std::size_t size_before = size_;
+    add_runs(find_ends(bitmap, listed.subspan(words_scanned_, count)));
+    words_scanned_ += count;
+    if (size_ > kCapacity || overflow_ > 0) take_back_rows_that_overflow(size_before);
   }
-  words_scanned_ = i;
-  size_ = firsts;
-  if (size_ > kCapacity) drop_last_row();
 }
 
-void RunList::drop_last_row() {
-  const int y = row(runs_[size_ - 1].first);
-  while (size_ > 0 && row(runs_[size_ - 1].first) == y) {
-    dropped_ = runs_[--size_].first;
-    ++overflow_;
+// A run begins (ends) at a set pixel whose left (right) neighbour is clear, unless no neighbour at
+// all is set. Whether a word has such a pixel cannot be predicted, so there is no branch for it.
+std::size_t RunList::find_ends(const Bitmap& bitmap, std::span<const PixelKey> words) {
+  EndWord* end = end_words_.data();
+  for (const PixelKey key : words) {
+    const std::uint64_t* here = bitmap.word(key);
+    const std::uint64_t left = *here << 1U | *(here - 1) >> 63U;
+    const std::uint64_t right = *here >> 1U | *(here + 1) << 63U;
+    const std::uint64_t beside = *(here - Bitmap::kRowWords) | *(here + Bitmap::kRowWords);
+    const std::uint64_t first = *here & ~left & (right | beside);
+    const std::uint64_t last = *here & ~right & (left | beside);
+    *end = {first, last, key};
+    end += (first | last) != 0;
   }
+  return static_cast<std::size_t>(end - end_words_.data());
+}
+
+// The k-th beginning belongs to the k-th end.
+void RunList::add_runs(std::size_t end_words) {
+  std::size_t firsts = size_;
+  std::size_t lasts = lasts_;
+  for (std::size_t i = 0; i < end_words; ++i) {
+    const EndWord& word = end_words_[i];
+    firsts += write_positions<&Run::first>(word.first, word.key, runs_.data() + firsts);
+    lasts += write_positions<&Run::last>(word.last, word.key, runs_.data() + lasts);
+  }
+  size_ = firsts;
+  lasts_ = lasts;
+}
+
+void RunList::take_back_rows_that_overflow(std::size_t size_before) {
+  const std::size_t size_with = size_;
+  if (overflow_ == 0) {
+    rows_searched_ = row(runs_[kCapacity].first);
+    while (size_ > 0 && row(runs_[size_ - 1].first) >= rows_searched_) --size_;
+  } else {
+    size_ = size_before;
+  }
+  lasts_ = size_;
+  overflow_ += static_cast<std::uint32_t>(size_with - size_);
 }
 
 }  // namespace dottrack::image

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "app/core/image/bitmap.h"
 
@@ -28,18 +29,31 @@ class RunList {
   std::size_t size() const { return size_; }
   const Run& operator[](std::size_t i) const { return runs_[i]; }
   std::uint32_t overflow() const { return overflow_; }  // runs left out
-  // Rows from the top whose runs are here, of the given number of rows.
-  int rows_searched(int rows) const { return overflow_ == 0 ? rows : row(dropped_); }
+  // Rows from the top whose runs are all here, of those that were scanned.
+  int rows_searched() const { return rows_searched_; }
 
  private:
-  void drop_last_row();
+  // One word's part of the runs: one bit for the first and for the last pixel of each.
+  struct EndWord {
+    std::uint64_t first;
+    std::uint64_t last;
+    PixelKey key;
+  };
+  // So many words at a time: their runs surely fit behind the last.
+  static constexpr std::size_t kMaxWords = 256;
+  static constexpr std::size_t kSpare = kMaxWords * (Bitmap::kWordBits / 2) + 2;
 
-  static constexpr std::size_t kMaxWordRuns = Bitmap::kWordBits / 2 + 1;
-  std::array<Run, kCapacity + kMaxWordRuns> runs_{};
+  std::size_t find_ends(const Bitmap& bitmap, std::span<const PixelKey> words);
+  void add_runs(std::size_t end_words);
+  void take_back_rows_that_overflow(std::size_t size_before);
+
+  std::array<EndWord, kMaxWords + 1> end_words_{};
+  std::array<Run, kCapacity + kSpare> runs_{};
   std::size_t size_ = 0;
+  std::size_t lasts_ = 0;  // a run may have begun in one word and end in another
   std::uint32_t overflow_ = 0;
   std::size_t words_scanned_ = 0;
-  PixelKey dropped_ = 0;  // the first run that was left out
+  int rows_searched_ = 0;
 };
 
 }  // namespace dottrack::image
