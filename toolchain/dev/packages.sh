@@ -11,12 +11,16 @@ is_installed() {
   [[ $(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
 }
 
+# With nobody there to type a password, sudo must not ask for one.
+sudo=(sudo)
+[[ -t 2 && ${CI:-} != true ]] || sudo+=(-n)
+
 apt() {
   local apt_get=(env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o Dpkg::Use-Pty=0)
   if ((EUID == 0)); then
     "${apt_get[@]}" "$@"
   elif command -v sudo >/dev/null; then
-    sudo -n "${apt_get[@]}" "$@"
+    "${sudo[@]}" "${apt_get[@]}" "$@"
   else
     return 1
   fi
