@@ -27,7 +27,8 @@ inline double arc_tangent(double y, double x) {
   struct Octant {
     double start, sign;
   };
-  constexpr Octant kOctants[2][2] = {{{0.0, 1.0}, {kPi, -1.0}}, {{kPi / 2, -1.0}, {kPi / 2, 1.0}}};
+  static constexpr Octant kOctants[2][2] = {{{0.0, 1.0}, {kPi, -1.0}},
+                                            {{kPi / 2, -1.0}, {kPi / 2, 1.0}}};
   const double wide = std::max(std::abs(x), std::abs(y));
   if (wide == 0.0) return 0.0;
   const double angle = arc_tangent_to_one(std::min(std::abs(x), std::abs(y)) / wide);

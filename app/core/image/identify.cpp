@@ -1,40 +1,40 @@
 #include "app/core/image/identify.h"
 
 #include <algorithm>
-#include <numbers>
+#include <array>
 
 #include "app/core/image/band_bitmap.h"
 #include "app/core/image/bitmap.h"
 #include "app/core/image/components.h"
+#include "app/core/image/gates.h"
 #include "app/core/image/local_background.h"
 #include "app/core/image/region_moments.h"
+#include "app/core/image/region_sums.h"
 #include "app/core/image/run_scan.h"
 
 namespace dottrack::image {
 
-struct Identifier::Memory {
-  void find_components(const ImageView& image, const Window& window, const Band& band);
-  void take_rows(int y_end);
-
-  Bitmap bitmap;
-  LocalBackground background;
-  RunList runs;
-  Components components;
-};
-
-Identifier::Identifier() : memory_(std::make_unique<Memory>()) {}
-Identifier::~Identifier() = default;
-
-std::size_t Identifier::footprint_bytes() const {
-  return sizeof(*this) + sizeof(Memory);
-}
-
 namespace {
 
-bool fits(const ImageView& image) {
-  return !image.empty() && image.width_px <= core::kMaxImageWidth &&
-         image.height_px <= core::kMaxImageHeight;
-}
+// One image's search: what is looked for, where.
+struct Search {
+  const ImageView& image;
+  Window window;
+  const Band& band;
+
+  bool has_background() const { return band.min_contrast_dn > 0; }
+  int width_px() const { return window.x_max - window.x_min + 1; }
+  int height_px() const { return window.y_max - window.y_min + 1; }
+
+  bool is_empty() const {
+    return image.empty() || image.width_px > core::kMaxImageWidth ||
+           image.height_px > core::kMaxImageHeight || width_px() <= 0 || height_px() <= 0 ||
+           std::max(band.intensity_min_dn, 0) > std::min(band.intensity_max_dn, 255);
+  }
+  ImageView pixels() const {
+    return {image.row(window.y_min) + window.x_min, width_px(), height_px(), image.stride_bytes};
+  }
+};
 
 Window clipped(const Window& window, const ImageView& image) {
   return {std::max(window.x_min, 0), std::max(window.y_min, 0),
@@ -50,35 +50,32 @@ PixelWeights band_weights(const ImageView& pixels, const Band& band) {
   return {pixels, -1, 1 + std::min(band.intensity_max_dn, 255)};
 }
 
-bool in_size(const RegionGate& gate, const Region& region) {
-  return region.semi_major_px >= gate.semi_major_min_px &&
-         region.semi_major_px <= gate.semi_major_max_px;
-}
-
-// Area over the area of the ellipse with the same moments: 1 for an ellipse, less for all else.
-double fill(const Region& region) {
-  return region.area_px / (std::numbers::pi * region.semi_major_px * region.semi_minor_px);
-}
-
-bool in_shape(const RegionGate& gate, const Region& region) {
-  return region.semi_minor_px >= gate.min_axis_ratio * region.semi_major_px &&
-         fill(region) >= gate.min_fill && region.core_contrast_dn >= gate.min_core_contrast_dn;
-}
-
-void count_and_keep(const Region& region, const RegionGate& gate, IdentifyCounts& counts,
-                    Regions& regions) {
-  if (!in_size(gate, region)) {
-    ++counts.rejected_size;
-  } else if (!in_shape(gate, region)) {
-    ++counts.rejected_shape;
-  } else if (try_push_back(regions, region)) {
-    ++counts.accepted;
-  } else {
-    ++counts.overflow_regions;
-  }
-}
-
 }  // namespace
+
+struct Identifier::Memory {
+  // Candidates are measured a few at a time: the arithmetic of one is awaited behind the others'.
+  static constexpr std::size_t kBatch = 32;
+
+  void find_components(const Search& search);
+  void take_rows(int y_end);
+  IdentifyCounts pick_regions(const Search& search, const RegionGate& gate, Regions& regions);
+  std::size_t next_batch(const RegionGate& gate, const ImageView& pixels,
+                         const PixelWeights& weights, std::size_t& next, IdentifyCounts& counts);
+
+  Bitmap bitmap;
+  LocalBackground background;
+  RunList runs;
+  Components components;
+  std::array<std::uint32_t, kBatch> batch;
+  std::array<RegionSums, kBatch> batch_sums;
+};
+
+Identifier::Identifier() : memory_(std::make_unique<Memory>()) {}
+Identifier::~Identifier() = default;
+
+std::size_t Identifier::footprint_bytes() const {
+  return sizeof(*this) + sizeof(Memory);
+}
 
 void Identifier::Memory::take_rows(int y_end) {
   runs.scan(bitmap, y_end);
@@ -86,22 +83,65 @@ void Identifier::Memory::take_rows(int y_end) {
 }
 
 // A few rows at a time: while runs are sought in them, the next ones come from memory.
-void Identifier::Memory::find_components(const ImageView& image, const Window& window,
-                                         const Band& band) {
+void Identifier::Memory::find_components(const Search& search) {
   constexpr int kRowsAtATime = 16;
-  bitmap.reshape(window.x_max - window.x_min + 1, window.y_max - window.y_min + 1);
+  const int height = search.height_px();
+  bitmap.reshape(search.width_px(), height);
   runs.clear();
   components.clear();
-  if (band.intensity_min_dn > band.intensity_max_dn) return;
-  const int height = bitmap.height_px();
   for (int y = 0; y < height; y += kRowsAtATime) {
     const int y_end = std::min(y + kRowsAtATime, height);
-    fill_band_rows(image, window, band, y, y_end, bitmap);
-    if (band.min_contrast_dn <= 0) take_rows(y_end < height ? y_end - 1 : height);
+    fill_band_rows(search.image, search.window, search.band, y, y_end, bitmap);
+    if (!search.has_background()) take_rows(y_end < height ? y_end - 1 : height);
   }
-  if (band.min_contrast_dn <= 0) return;
-  background.keep_contrast(image, window, band, bitmap);
+  if (!search.has_background()) return;
+  background.keep_contrast(search.image, search.window, search.band, bitmap);
   take_rows(height);
+}
+
+// The sums of the next candidates that the cheap gates let through; returns how many.
+std::size_t Identifier::Memory::next_batch(const RegionGate& gate, const ImageView& pixels,
+                                           const PixelWeights& weights, std::size_t& next,
+                                           IdentifyCounts& counts) {
+  std::size_t count = 0;
+  for (; next < components.size() && count < kBatch; ++next) {
+    if (!components.is_root(next)) continue;
+    const Component& component = components[next];
+    ++counts.components;
+    if (excludes_size(gate, component)) {
+      ++counts.rejected_size;
+      continue;
+    }
+    batch[count] = static_cast<std::uint32_t>(next);
+    batch_sums[count++] = sum_region(pixels, weights.values, runs, components, component);
+  }
+  return count;
+}
+
+IdentifyCounts Identifier::Memory::pick_regions(const Search& search, const RegionGate& gate,
+                                                Regions& regions) {
+  const PixelWeights weights = search.has_background() ? PixelWeights{background.excess(), 1, 0}
+                                                       : band_weights(search.pixels(), search.band);
+  IdentifyCounts counts;
+  counts.runs = static_cast<std::uint32_t>(runs.size());
+  counts.overflow_runs = runs.overflow();
+  std::size_t next = 0;
+  while (const std::size_t count = next_batch(gate, search.pixels(), weights, next, counts)) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const Region region = region_of(search.image, search.window, search.band.polarity, weights,
+                                      components[batch[i]], batch_sums[i]);
+      if (!passes_size(gate, region)) {
+        ++counts.rejected_size;
+      } else if (!passes_shape(gate, region)) {
+        ++counts.rejected_shape;
+      } else if (try_push_back(regions, region)) {
+        ++counts.accepted;
+      } else {
+        ++counts.overflow_regions;
+      }
+    }
+  }
+  return counts;
 }
 
 IdentifyCounts Identifier::identify(const ImageView& image, const Band& band,
@@ -112,31 +152,11 @@ IdentifyCounts Identifier::identify(const ImageView& image, const Band& band,
 IdentifyCounts Identifier::identify(const ImageView& image, const Window& window, const Band& band,
                                     const RegionGate& gate, Regions& regions) {
   regions.clear();
-  if (!fits(image)) return {};
-  Window searched = clipped(window, image);
-  if (searched.x_min > searched.x_max || searched.y_min > searched.y_max) return {};
-  auto& [bitmap, background, runs, components] = *memory_;
-  memory_->find_components(image, searched, band);
-  searched.y_max = searched.y_min + runs.rows_searched() - 1;
-
-  const PixelWeights weights = band.min_contrast_dn > 0
-                                   ? PixelWeights{background.excess(), 1, 0}
-                                   : band_weights(inside(image, searched), band);
-  IdentifyCounts counts;
-  counts.runs = static_cast<std::uint32_t>(runs.size());
-  counts.overflow_runs = runs.overflow();
-  for (std::size_t i = 0; i < components.size(); ++i) {
-    if (!components.is_root(i)) continue;
-    ++counts.components;
-    if (excludes_size(gate, components[i])) {
-      ++counts.rejected_size;
-      continue;
-    }
-    count_and_keep(
-        measure(image, searched, band.polarity, weights, runs, components, components[i]), gate,
-        counts, regions);
-  }
-  return counts;
+  Search search{image, clipped(window, image), band};
+  if (search.is_empty()) return {};
+  memory_->find_components(search);
+  search.window.y_max = search.window.y_min + memory_->runs.rows_searched() - 1;
+  return memory_->pick_regions(search, gate, regions);
 }
 
 }  // namespace dottrack::image

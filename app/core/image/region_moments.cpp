@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "app/core/image/arc_tangent.h"
 
@@ -72,34 +71,10 @@ double core_contrast(const ImageView& image, const Eigen::Vector2d& centroid, in
 
 }  // namespace
 
-bool excludes_size(const RegionGate& gate, const Component& component) {
-  const double area = component.area_px;
-  const double w = component.x_max - component.x_min + 1;
-  const double h = component.y_max - component.y_min + 1;
-  if (component.area_px < gate.min_area_px) return true;
-  // Of all shapes of this area the disc has the least major axis.
-  const double max_squared = gate.semi_major_max_px * gate.semi_major_max_px;
-  if (area > std::numbers::pi * max_squared) return true;
-  // A connected region has a pixel in each of its columns: sum (x - mean)^2 >= w (w^2 - 1) / 12.
-  const double longest = std::max(w, h);
-  if (longest * (longest * longest - 1.0) + area > 3.0 * area * max_squared) return true;
-  // A variance is at most a quarter of the extent squared.
-  const double min_squared = gate.semi_major_min_px * gate.semi_major_min_px;
-  return (w - 1.0) * (w - 1.0) + (h - 1.0) * (h - 1.0) + 1.0 / 3.0 < min_squared;
-}
-
-ImageView inside(const ImageView& image, const Window& window) {
-  return {image.row(window.y_min) + window.x_min, window.x_max - window.x_min + 1,
-          window.y_max - window.y_min + 1, image.stride_bytes};
-}
-
-Region measure(const ImageView& image, const Window& window, core::Polarity polarity,
-               const PixelWeights& weights, const RunList& runs, const Components& components,
-               const Component& component) {
+Region region_of(const ImageView& image, const Window& window, core::Polarity polarity,
+                 const PixelWeights& weights, const Component& component, const RegionSums& sums) {
   Region region;
   set_box(region, component, window);
-  const RegionSums sums =
-      sum_region(inside(image, window), weights.values, runs, components, component);
   region.saturated_px = static_cast<int>(sums.saturated);
   set_centroid(region, sums, weights);
   set_ellipse(region, sums);
