@@ -29,7 +29,8 @@ step() {
 show_end() {
   local log=$1
   echo "--- $log: errors, then the end" >&2
-  grep -E '(error|Error|FAILED|\*\*\*Failed):?' "$log" | head -n 12 >&2 || true
+  grep -E 'error:|Error:|undefined reference|FAILED: |: Failure$|\*\*\*' "$log" |
+    cut -c 1-300 | head -n 12 >&2 || true
   echo "..." >&2
   tail -n 25 "$log" >&2
   echo "--- the whole log: $PWD/$log" >&2
