@@ -12,7 +12,7 @@ function unescaped(text) {
   sub(/^.*<testcase name="/, "", name); sub(/".*$/, "", name)
   status = $0
   sub(/^.* status="/, "", status); sub(/".*$/, "", status)
-  reason = ""
+  reason = message = ""
   reason_next = 0
 }
 # GoogleTest says `FILE:LINE: Skipped` and on the next line why.
@@ -27,7 +27,7 @@ reason_next && status == "notrun" && reason == "" { reason = unescaped($0); reas
     ++passed
   } else if (status == "notrun" || status == "disabled") {
     ++skipped
-    lines[++count] = "skip " (reason != "" ? reason : status " " message)
+    lines[++count] = "skip " (reason != "" ? reason : unescaped(name) " is " status " " message)
   } else {
     ++failed
     lines[++count] = "fail " unescaped(name)
