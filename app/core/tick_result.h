@@ -35,8 +35,8 @@ struct DotState {
   bool located = false;  // triangulated from at least two cameras in this tick
   // World: as triangulated; where the pose puts it if a single camera saw it.
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
-  double position_sigma_m = 0.0;                         // root of the covariance's trace
-  CameraSet cameras;                                     // that saw it
+  double position_sigma_m = 0.0;  // root of the covariance's trace
+  CameraSet cameras;              // that saw it
   std::array<DotView, kMaxCameras> views{};
 };
 
