@@ -81,8 +81,9 @@ HWY_INLINE void fill(const ImageView& image, const Window& window, Test in_band,
     };
 #pragma GCC unroll 4
     for (int w = 0; w < full_words; ++w) {
-      hwy::Prefetch(pixels + 64 * w + ahead);
-      put(w, band_word(pixels + 64 * w, in_band));
+      const std::uint8_t* first = pixels + std::ptrdiff_t{64} * w;
+      hwy::Prefetch(first + ahead);
+      put(w, band_word(first, in_band));
     }
     if (tail != 0) {
       const int x = 64 * full_words;

@@ -24,8 +24,8 @@ struct Pixel {
   float value;
 };
 
-constexpr std::size_t kMaxPixels =
-    static_cast<std::size_t>((2 * kMaxReach_px + 1) * (2 * kMaxReach_px + 1));
+constexpr std::size_t kMaxSide = 2 * kMaxReach_px + 1;
+constexpr std::size_t kMaxPixels = kMaxSide * kMaxSide;
 using Pixels = StaticVector<Pixel, kMaxPixels>;
 
 // The region's ellipse as a distance: 0 at the centre, the semi-axes' mean at its edge.

@@ -8,7 +8,8 @@ void LocalBackground::start(const ImageView& image, const Window& window, const 
   window_ = window;
   width_px_ = window.x_max - window.x_min + 1;
   height_px_ = window.y_max - window.y_min + 1;
-  stride_ = (width_px_ + Bitmap::kWordBits - 1) / Bitmap::kWordBits * Bitmap::kWordBits;
+  stride_ = (width_px_ + Bitmap::kWordBits - 1) / Bitmap::kWordBits;
+  stride_ *= Bitmap::kWordBits;
   radius_ = std::clamp(band.background_px / 2, 1, kMaxRadius);
   x_first_ = std::max(window.x_min - radius_, 0);
   x_last_ = std::min(window.x_max + radius_, image.width_px - 1);

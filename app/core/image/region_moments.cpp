@@ -61,11 +61,16 @@ double mean_around(const ImageView& image, int x, int y) {
   return static_cast<double>(sum) / (rows * columns);
 }
 
+// Coordinates in an image are never negative, and lround would be a call.
+int nearest_pixel(double coordinate) {
+  return static_cast<int>(coordinate + 0.5);  // NOLINT(bugprone-incorrect-roundings)
+}
+
 // See Region::core_contrast_dn.
 double core_contrast(const ImageView& image, const Eigen::Vector2d& centroid, int faintest_dn,
                      core::Polarity polarity) {
-  const double middle = mean_around(image, static_cast<int>(centroid.x() + 0.5),
-                                    static_cast<int>(centroid.y() + 0.5));
+  const double middle =
+      mean_around(image, nearest_pixel(centroid.x()), nearest_pixel(centroid.y()));
   return polarity == core::Polarity::bright ? middle - faintest_dn : faintest_dn - middle;
 }
 

@@ -162,6 +162,20 @@ TEST_F(IdentifyCapacity, AWindowOutsideTheImageGivesNothing) {
   EXPECT_EQ(windows, 5);
 }
 
+TEST_F(IdentifyCapacity, AnEmptyBandGivesNothing) {
+  Picture picture(50, 40);
+  picture.fill(255);
+  int bands = 0;
+  for (const Band& band : {Band{.intensity_min_dn = 256, .intensity_max_dn = 300},
+                           Band{.intensity_min_dn = 200, .intensity_max_dn = 100},
+                           Band{.intensity_min_dn = -20, .intensity_max_dn = -1}}) {
+    EXPECT_EQ(identifier_.identify(picture.view(), band, {}, *regions_).runs, 0U);
+    EXPECT_TRUE(regions_->empty());
+    ++bands;
+  }
+  EXPECT_EQ(bands, 3);
+}
+
 TEST_F(IdentifyCapacity, SaysHowLargeItIs) {
   EXPECT_GT(identifier_.footprint_bytes(), 1U << 20U);
   EXPECT_LT(identifier_.footprint_bytes(), 16U << 20U);

@@ -14,7 +14,7 @@ namespace {
 
 class IdentifyTargets : public testing::Test {
  protected:
-  ~IdentifyTargets() override { hwy::SetSupportedTargetsForTest(0); }
+  void TearDown() override { hwy::SetSupportedTargetsForTest(0); }
 
   void identify(std::int64_t target, const Picture& picture, const Band& band, Regions& regions) {
     hwy::SetSupportedTargetsForTest(target);
