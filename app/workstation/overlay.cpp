@@ -88,6 +88,7 @@ class Overlay {
     }
     std::sort(bearings.begin(), bearings.end());
     std::vector<std::size_t> order;
+    order.reserve(bearings.size());
     for (const auto& [bearing, dot] : bearings) order.push_back(dot);
     return order;
   }

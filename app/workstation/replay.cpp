@@ -121,7 +121,7 @@ class Run {
 
   // Of the last tick.
   Result<void> write_pictures(const fs::path& folder) const {
-    if (const auto made = make_folder(folder); !made) return made;
+    if (auto made = make_folder(folder); !made) return made;
     for (std::size_t i = 0; i < opened_.config.cameras.size(); ++i) {
       const std::string& name = opened_.config.cameras[i].name;
       const Canvas canvas =
@@ -129,7 +129,7 @@ class Run {
                         tally_.last_record().result, tracker_.regions(i)});
       const Result<std::string> png = canvas.png();
       if (!png) return tl::unexpected<Error>(png.error());
-      if (const auto done = write_file(folder / (name + ".png"), *png); !done) return done;
+      if (auto done = write_file(folder / (name + ".png"), *png); !done) return done;
     }
     return {};
   }

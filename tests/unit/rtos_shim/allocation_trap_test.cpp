@@ -67,8 +67,8 @@ const std::vector<Kind>& kinds() {
        kAlignedFormsAreSeen},
       {"strdup", by_strdup, [](void* b) { std::free(b); }},
       {"new", [] { return ::operator new(10); }, [](void* b) { ::operator delete(b); }},
-      {"new_sized_delete", [] { return ::operator new(10); },
-       [](void* b) { ::operator delete (b, std::size_t{10}); }},
+      {"new_object", [] { return static_cast<void*>(new int(1)); },
+       [](void* b) { delete static_cast<int*>(b); }},  // sized delete
       {"new_array", [] { return ::operator new[](10); }, [](void* b) { ::operator delete[](b); }},
       {"new_nothrow", [] { return ::operator new(10, std::nothrow); },
        [](void* b) { ::operator delete(b, std::nothrow); }},

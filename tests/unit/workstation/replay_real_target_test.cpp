@@ -46,7 +46,7 @@ TEST_P(RealTarget, LocksAtTheFirstTickAndTracksEveryLaterOne) {
   if (!shared) GTEST_SKIP() << "shared data absent: photographs of a real target";
   const fs::path folder = *shared / "real_target" / GetParam().name;
   const test::TemporaryFolder outs;
-  const fs::path out = outs.path();
+  const fs::path& out = outs.path();
   const ReplayRun run =
       run_replay({(folder / "rig.toml").string(), "--frames", (folder / "frames").string(), "--out",
                   out.string(), "--repeat", "20"});
