@@ -10,7 +10,7 @@ namespace dottrack::acquisition {
 namespace {
 
 // Work units in one tick; see WorkBudget.
-constexpr std::uint64_t kWorkUnits = 500'000;
+constexpr std::uint64_t kWorkUnits = 1'500'000;
 
 // A pair's point is looked for among finalists this many largest diameters around it: the depth of
 // a crossover is known less well than its place across the view.
