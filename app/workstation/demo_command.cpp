@@ -46,7 +46,7 @@ int report(const std::string& message, int status) {
 }
 
 Result<void> write_recording(const host_sim::Scene& scene, const DemoOptions& options) {
-  const auto truth = host_sim::write_truth(scene, options.ticks, options.out / "truth.tum");
+  auto truth = host_sim::write_truth(scene, options.ticks, options.out / "truth.tum");
   if (!truth) return truth;
   return host_sim::write_frames(scene, options.ticks, options.out / "frames");
 }

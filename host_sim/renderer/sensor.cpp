@@ -11,17 +11,17 @@ namespace dottrack::host_sim {
 namespace {
 
 constexpr int kReach_px = 3;
-using Kernel = std::array<float, 2 * kReach_px + 1>;
+using Kernel = std::array<float, 2 * kReach_px + 1>;  // weight i belongs to an offset i - kReach_px
 
 Kernel gaussian(double sigma_px) {
-  Kernel kernel{};
+  std::array<double, Kernel{}.size()> weights{};
   double sum = 0.0;
-  std::array<double, kernel.size()> weights{};
-  for (int k = -kReach_px; k <= kReach_px; ++k) {
-    const double weight = exponential(-0.5 * (k * k) / (sigma_px * sigma_px));
-    weights[static_cast<std::size_t>(k + kReach_px)] = weight;
-    sum += weight;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double offset = static_cast<double>(i) - kReach_px;
+    weights[i] = exponential(-0.5 * offset * offset / (sigma_px * sigma_px));
+    sum += weights[i];
   }
+  Kernel kernel{};
   for (std::size_t i = 0; i < kernel.size(); ++i) {
     kernel[i] = static_cast<float>(weights[i] / sum);
   }
@@ -37,9 +37,9 @@ void blur_row(const FloatImage& light, int y, const PixelBox& box, const Kernel&
               FloatImage& rows, int row) {
   for (int x = box.x0; x < box.x1; ++x) {
     float sum = 0.0F;
-    for (int k = -kReach_px; k <= kReach_px; ++k) {
-      sum += kernel[static_cast<std::size_t>(k + kReach_px)] *
-             light.at(within(x + k, light.width_px()), y);
+    int column = x - kReach_px;
+    for (const float weight : kernel) {
+      sum += weight * light.at(within(column++, light.width_px()), y);
     }
     rows.at(x - box.x0, row) = sum;
   }
@@ -71,9 +71,8 @@ void blur(const FloatImage& light, const PixelBox& box, double sigma_px, FloatIm
   for (int y = box.y0; y < box.y1; ++y) {
     for (int x = box.x0; x < box.x1; ++x) {
       float sum = 0.0F;
-      for (int k = 0; k <= 2 * kReach_px; ++k) {
-        sum += kernel[static_cast<std::size_t>(k)] * rows.at(x - box.x0, y - box.y0 + k);
-      }
+      int row = y - box.y0;
+      for (const float weight : kernel) sum += weight * rows.at(x - box.x0, row++);
       blurred.at(x, y) = sum;
     }
   }

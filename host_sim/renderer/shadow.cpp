@@ -17,7 +17,7 @@ constexpr double kOffSurface_m = 2e-3;  // so that a surface does not shade itse
 constexpr double kGoldenAngle_rad = 2.39996322972865332;
 
 double middle_of(int cell) {
-  return (cell - kColumnsAcross / 2 + 0.5) * kCell_m;
+  return (cell + 0.5 - 0.5 * kColumnsAcross) * kCell_m;
 }
 
 int cell_of(double x) {

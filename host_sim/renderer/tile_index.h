@@ -23,8 +23,8 @@ class TileIndex {
 
   // For a pixel of the box: a superset of the balls that lines of sight through it meet.
   std::span<const std::uint16_t> at(int x, int y) const {
-    return tiles_[static_cast<std::size_t>((y - box_.y0) / kTile_px * columns_ +
-                                           (x - box_.x0) / kTile_px)];
+    const int tile = (y - box_.y0) / kTile_px * columns_ + (x - box_.x0) / kTile_px;
+    return tiles_[static_cast<std::size_t>(tile)];
   }
 
  private:
