@@ -1,23 +1,27 @@
 #pragma once
-// What is there.
+// What is there, and what happens to it.
 
-#include <optional>
+#include <string>
 #include <vector>
 
-#include "host_sim/world/drive_path.h"
-#include "host_sim/world/ground.h"
-#include "host_sim/world/lighting.h"
-#include "host_sim/world/object.h"
-#include "host_sim/world/rover.h"
+#include "host_sim/world/lamp.h"
+#include "host_sim/world/model.h"
+#include "host_sim/world/motion.h"
 
 namespace dottrack::host_sim {
 
+// Something that may move: the vehicle, a person, a crate that somebody carries.
+struct Body {
+  std::string name;
+  Model model;
+  Motion motion;
+};
+
 struct World {
-  Ground ground;
-  Lighting lighting;
-  std::vector<Object> objects;     // that stand still; world coordinates
-  std::optional<Vehicle> vehicle;  // absent: an empty scene
-  DrivePath drive;                 // of the vehicle
+  Model hall;  // all that stands still, world coordinates
+  std::vector<Lamp> lamps;
+  LightPlan light;
+  std::vector<Body> bodies;
 };
 
 }  // namespace dottrack::host_sim

@@ -47,7 +47,7 @@ const std::vector<Rule>& rules() {
       // Not app/core/geometry: an error in a shared camera model would cancel out.
       {"host_sim",
        {"host_sim", "hal", "rtos_shim", "app/core/protocol"},
-       {"Eigen", "fmt", "embree4"}},
+       {"Eigen", "fmt", "embree3"}},
 
       {"tests", {"app", "drivers", "hal", "host_sim", "rtos_shim", "tests"}, {"*"}},
   };

@@ -1,0 +1,53 @@
+#pragma once
+// Pictures of a hall through one camera. What stands still is rendered once, light by light; a
+// picture then costs only what moves, and light, shadow and occlusion stay right.
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "host_sim/renderer/image_buffer.h"
+#include "host_sim/renderer/ray_scene.h"
+#include "host_sim/renderer/sensor.h"
+#include "host_sim/renderer/sim_camera.h"
+#include "host_sim/world/lamp.h"
+#include "host_sim/world/motion.h"
+
+namespace dottrack::host_sim {
+
+// What stands still, shared by all cameras.
+struct Hall {
+  RayScene scene;
+  std::vector<Lamp> lamps;
+
+  Hall(const Model& model, std::vector<Lamp> hall_lamps)
+      : scene(model), lamps(std::move(hall_lamps)) {}
+};
+
+// What may move; `scene` and `motion` outlive the call they are passed to.
+struct MovingBody {
+  const RayScene* scene = nullptr;
+  const Motion* motion = nullptr;
+};
+
+// Not for two threads at once; two views do not disturb each other. The pictures are the same
+// bytes whatever the number of threads and whatever was rendered before.
+class CameraView {
+ public:
+  // `hall` must outlive this. Renders the still picture, light by light: seconds.
+  CameraView(const Hall& hall, const SimCamera& camera, const SensorModel& sensor);
+  ~CameraView();
+
+  const SimCamera& camera() const;
+
+  // The hall with these bodies as they move, and the lamps as they shine, during the exposure.
+  void render(const Exposure& exposure, std::span<const MovingBody> bodies, const LightPlan& light,
+              GreyImage& image);
+
+ private:
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
+};
+
+}  // namespace dottrack::host_sim
