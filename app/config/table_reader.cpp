@@ -9,20 +9,9 @@
 namespace dottrack::config {
 namespace {
 
-// A whole number is a number too; text never is.
-std::optional<double> as_number(const toml::node& node) {
-  if (const auto* real = node.as_floating_point()) return real->get();
-  if (const auto* whole = node.as_integer()) return static_cast<double>(whole->get());
-  return std::nullopt;
-}
-
 std::optional<std::int64_t> as_integer(const toml::node& node) {
   if (const auto* whole = node.as_integer()) return whole->get();
   return std::nullopt;
-}
-
-bool obeys(const NumberRule& rule, double value) {
-  return std::isfinite(value) && value > rule.above && value <= rule.at_most;
 }
 
 bool obeys(const IntegerRule& rule, std::int64_t value) {
@@ -30,6 +19,18 @@ bool obeys(const IntegerRule& rule, std::int64_t value) {
 }
 
 }  // namespace
+
+// A whole number is a number too; text never is.
+std::optional<double> as_number(const toml::node& node) {
+  if (const auto* real = node.as_floating_point()) return real->get();
+  if (const auto* whole = node.as_integer()) return static_cast<double>(whole->get());
+  return std::nullopt;
+}
+
+bool obeys(const NumberRule& rule, double value) {
+  const bool high_enough = value > rule.above || (rule.or_equal && value == rule.above);
+  return std::isfinite(value) && high_enough && value <= rule.at_most;
+}
 
 std::string_view kind_of(const toml::node& node) {
   if (node.is_string()) return "a text";
@@ -120,10 +121,15 @@ double TableReader::number(std::string_view key, std::optional<double> fallback,
 }
 
 int TableReader::integer(std::string_view key, int fallback, const IntegerRule& rule) {
+  return static_cast<int>(whole_number(key, fallback, rule));
+}
+
+std::int64_t TableReader::whole_number(std::string_view key, std::int64_t fallback,
+                                       const IntegerRule& rule) {
   const toml::node* node = table_.get(key);
   if (node == nullptr) return fallback;
   const auto value = as_integer(*node);
-  if (value && obeys(rule, *value)) return static_cast<int>(*value);
+  if (value && obeys(rule, *value)) return *value;
   if (value) {
     complain(key, std::to_string(*value), rule.expected);
   } else {

@@ -3,12 +3,14 @@
 
 #include <toml++/toml.h>
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "app/config/complaint.h"
 
@@ -19,12 +21,13 @@ struct NumberRule {
   double above = 0.0;
   double at_most = std::numeric_limits<double>::max();
   std::string_view expected;
+  bool or_equal = false;  // `above` itself may be, too
 };
 
 // What a whole number may be, both ends included, in these words.
 struct IntegerRule {
-  int at_least = 0;
-  int at_most = 0;
+  std::int64_t at_least = 0;
+  std::int64_t at_most = 0;
   std::string_view expected;
 };
 
@@ -40,6 +43,10 @@ class TableReader {
   bool boolean(std::string_view key, bool fallback);
   double number(std::string_view key, std::optional<double> fallback, const NumberRule& rule);
   int integer(std::string_view key, int fallback, const IntegerRule& rule);
+  std::int64_t whole_number(std::string_view key, std::int64_t fallback, const IntegerRule& rule);
+
+  // One of `words`, by its place among them; the first without the key.
+  std::size_t choice(std::string_view key, std::initializer_list<std::string_view> words);
 
   // Two numbers [low, high], each within the rule; low < high.
   std::pair<double, double> number_range(std::string_view key, const NumberRule& rule);
@@ -47,6 +54,20 @@ class TableReader {
   std::pair<int, int> integer_range(std::string_view key, std::pair<int, int> fallback,
                                     const IntegerRule& rule);
 
+  // A list of `size` numbers, each within the rule; the fallback without the key.
+  std::vector<double> numbers(std::string_view key, std::size_t size,
+                              const std::optional<std::vector<double>>& fallback,
+                              const NumberRule& rule);
+  // A list of such lists, `at_least` of them; empty without the key where none is needed.
+  std::vector<std::vector<double>> number_rows(std::string_view key, std::size_t columns,
+                                               std::size_t at_least, const NumberRule& rule);
+
+  // The table under a key, or nullptr without the key.
+  const toml::table* table(std::string_view key);
+  // The tables under a key, [[key]]; none without the key.
+  std::vector<const toml::table*> tables(std::string_view key);
+
+  bool has(std::string_view key) const { return table_.contains(key); }
   // Where the key stands; where the table stands when the key is missing.
   std::size_t line(std::string_view key) const;
   std::size_t line() const;
@@ -59,11 +80,19 @@ class TableReader {
   void complain_missing(std::string_view key, std::string_view expected);
   void complain_type(std::string_view key, std::string_view expected);
   const toml::array* two_elements(std::string_view key, std::string_view expected);
+  std::optional<std::vector<double>> read_row(std::string_view key, const toml::node& node,
+                                              std::size_t size, const NumberRule& rule);
 
   Complaint& complaint_;
   const toml::table& table_;
   std::string title_;
 };
+
+// A number, whole or not; nothing for anything else.
+std::optional<double> as_number(const toml::node& node);
+
+// Whether a number is one, finite and within the rule.
+bool obeys(const NumberRule& rule, double value);
 
 // "a text", "a whole number", "a table": what a TOML value is, in words.
 std::string_view kind_of(const toml::node& node);

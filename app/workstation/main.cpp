@@ -7,7 +7,6 @@
 #include <string>
 
 #include "app/workstation/camera_command.h"
-#include "app/workstation/demo_command.h"
 #include "app/workstation/replay_command.h"
 
 namespace {
@@ -47,7 +46,6 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error, int argc,
 
 void add_commands(CLI::App& app, int& exit_status) {
   dottrack::workstation::add_replay_command(app, exit_status);
-  dottrack::workstation::add_demo_command(app, exit_status);
   dottrack::workstation::add_camera_command(app, exit_status);
 }
 

@@ -6,7 +6,7 @@ dottrack_library(workstation_outputs
   USES dottrack::config dottrack::core dottrack::telemetry fmt::fmt PNG::PNG)
 target_compile_definitions(dottrack_workstation_outputs PRIVATE
   DOTTRACK_BUILD_TYPE="$<CONFIG>")
-dottrack_library(workstation_replay SOURCES replay.cpp
+dottrack_library(workstation_replay SOURCES loop_files.cpp loop_run.cpp replay.cpp
   USES dottrack::workstation_outputs dottrack::cycle dottrack::drivers_recorded
        dottrack::drivers_candump dottrack::rtos_virtual_time dottrack::rtos_posix_rt
        dottrack::allocation_trap)

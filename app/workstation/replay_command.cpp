@@ -19,7 +19,7 @@ void print_error(const std::string& line) {
   fmt::print(stderr, "dottrack: {}\n", line);
 }
 
-std::string lock_line(const ReplaySummary& summary) {
+std::string lock_line(const RunSummary& summary) {
   if (summary.first_lock_tick < 0) return fmt::format("no lock in {} ticks", summary.ticks);
   return fmt::format("locked at tick {}, tracking {} of {} ticks, {} reacquisitions",
                      summary.first_lock_tick, summary.tracking_ticks, summary.ticks,
@@ -33,7 +33,7 @@ void print_last_lock(const core::TickResult& lock) {
              lock.tick, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
 }
 
-void print_summary(const ReplayOptions& options, const ReplaySummary& summary) {
+void print_summary(const ReplayOptions& options, const RunSummary& summary) {
   fmt::print("{}\n", lock_line(summary));
   if (summary.last_lock) {
     fmt::print("mean residual {:.3f} mm\n", 1000.0 * summary.mean_rms_residual_m);
@@ -47,7 +47,7 @@ void print_summary(const ReplayOptions& options, const ReplaySummary& summary) {
 }
 
 int run(const ReplayOptions& options) {
-  const Result<ReplaySummary> summary = replay(options);
+  const Result<RunSummary> summary = replay(options);
   if (!summary) {
     print_error(summary.error().message);
     return kWrongInput;

@@ -2,24 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
-#include <vector>
 
 namespace dottrack::workstation {
 namespace {
-
-std::string json_string(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (static_cast<unsigned char>(c) < 0x20) {
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
-}
 
 // An object whose members come in the order in which they are added.
 class Object {
@@ -83,6 +68,19 @@ std::string times(const TimeFigures& figures) {
 
 }  // namespace
 
+std::string json_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (static_cast<unsigned char>(c) < 0x20) {
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
 std::string report_json(const config::RigConfig& rig, const RunTally& tally,
                         const RunFacts& facts) {
   const telemetry::CycleCounters& counters = tally.last_record().counters;
@@ -109,6 +107,7 @@ std::string report_json(const config::RigConfig& rig, const RunTally& tally,
   report.add("last_lock", last_lock(tally));
   report.add("memory_bytes", memory(facts));
   for (const auto& [name, figures] : tally.times()) report.add(name + "_us", times(figures));
+  for (const auto& [key, value] : facts.more) report.add(key, value);
   return report.text() + "\n";
 }
 

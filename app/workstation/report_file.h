@@ -3,6 +3,9 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "app/config/rig_file.h"
 #include "app/workstation/run_tally.h"
@@ -15,7 +18,11 @@ struct RunFacts {
   bool allocation_trap_complete = false;
   std::uint64_t bad_frames = 0;
   std::size_t tracker_bytes = 0;
+  // Further members, each a key and its value as JSON, in this order.
+  std::vector<std::pair<std::string, std::string>> more;
 };
+
+std::string json_string(std::string_view text);
 
 std::string report_json(const config::RigConfig& rig, const RunTally& tally, const RunFacts& facts);
 
