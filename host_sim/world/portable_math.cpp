@@ -74,6 +74,24 @@ double tangent(double radians) {
   return sine(radians) / cosine(radians);
 }
 
+double arc_tangent(double y, double x) {
+  const double wide = std::abs(x);
+  const double high = std::abs(y);
+  if (wide == 0.0 && high == 0.0) return 0.0;
+  const bool steep = high > wide;
+  const double q = steep ? wide / high : high / wide;
+  double angle = q * (0.9724 - 0.1919 * q * q);  // within 0.005; each round takes its fifth power
+  for (int round = 0; round < 2; ++round) {
+    const double s = sine_near_zero(angle);
+    const double c = cosine_near_zero(angle);
+    const double tangent_left = (q * c - s) / (c + q * s);
+    angle += tangent_left * (1.0 - tangent_left * tangent_left / 3.0);
+  }
+  if (steep) angle = 0.5 * kPi - angle;
+  if (x < 0.0) angle = kPi - angle;
+  return y < 0.0 ? -angle : angle;
+}
+
 double exponential(double x) {
   const double k = std::floor(x / (kLn2High + kLn2Low) + 0.5);
   const double r = (x - k * kLn2High) - k * kLn2Low;

@@ -14,5 +14,7 @@ double sine(double radians);
 double cosine(double radians);
 double tangent(double radians);
 double exponential(double x);  // |x| < 700
+// The angle of the direction (x, y) from the x axis, (-pi, pi]; 0 for no direction at all.
+double arc_tangent(double y, double x);
 
 }  // namespace dottrack::host_sim
