@@ -1,110 +1,132 @@
 #include "host_sim/renderer/sensor.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "host_sim/world/portable_math.h"
+#include "host_sim/renderer/normal_deviates.h"
 #include "host_sim/world/random.h"
 
 namespace dottrack::host_sim {
 namespace {
 
-constexpr int kReach_px = 3;
-using Kernel = std::array<float, 2 * kReach_px + 1>;  // weight i belongs to an offset i - kReach_px
+constexpr float kSpilledDown = 0.75F;  // of what spills; the rest goes up
 
-Kernel gaussian(double sigma_px) {
-  std::array<double, Kernel{}.size()> weights{};
-  double sum = 0.0;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    const double offset = static_cast<double>(i) - kReach_px;
-    weights[i] = exponential(-0.5 * offset * offset / (sigma_px * sigma_px));
-    sum += weights[i];
-  }
-  Kernel kernel{};
-  for (std::size_t i = 0; i < kernel.size(); ++i) {
-    kernel[i] = static_cast<float>(weights[i] / sum);
-  }
-  return kernel;
-}
-
-int within(int v, int size) {
-  return std::clamp(v, 0, size - 1);
-}
-
-// One row of the image, blurred along x, for columns x0 to x1.
-void blur_row(const FloatImage& light, int y, const PixelBox& box, const Kernel& kernel,
-              FloatImage& rows, int row) {
-  for (int x = box.x0; x < box.x1; ++x) {
-    float sum = 0.0F;
-    int column = x - kReach_px;
-    for (const float weight : kernel) {
-      sum += weight * light.at(within(column++, light.width_px()), y);
-    }
-    rows.at(x - box.x0, row) = sum;
-  }
-}
-
-std::uint8_t rounded(double dn) {
-  return static_cast<std::uint8_t>(std::clamp(std::floor(dn + 0.5), 0.0, 255.0));
-}
-
-}  // namespace
-
-int blur_reach_px(double sigma_px) {
-  return sigma_px > 0.0 ? kReach_px : 0;
-}
-
-void blur(const FloatImage& light, const PixelBox& box, double sigma_px, FloatImage& blurred) {
-  if (box.empty()) return;
-  if (!(sigma_px > 0.0)) {
-    for (int y = box.y0; y < box.y1; ++y) {
-      for (int x = box.x0; x < box.x1; ++x) blurred.at(x, y) = light.at(x, y);
-    }
-    return;
-  }
-  const Kernel kernel = gaussian(sigma_px);
-  FloatImage rows(box.x1 - box.x0, box.y1 - box.y0 + 2 * kReach_px);
-  for (int row = 0; row < rows.height_px(); ++row) {
-    blur_row(light, within(box.y0 + row - kReach_px, light.height_px()), box, kernel, rows, row);
-  }
-  for (int y = box.y0; y < box.y1; ++y) {
-    for (int x = box.x0; x < box.x1; ++x) {
-      float sum = 0.0F;
-      int row = y - box.y0;
-      for (const float weight : kernel) sum += weight * rows.at(x - box.x0, row++);
-      blurred.at(x, y) = sum;
-    }
-  }
-}
-
-Sensor::Sensor(const SensorModel& model, int width_px, int height_px)
-    : model_(model), gain_dn_(width_px, height_px) {
+FloatImage falloff_of(double corner_falloff, int width_px, int height_px) {
+  FloatImage falloff(width_px, height_px);
   const double half_x = 0.5 * (width_px - 1);
   const double half_y = 0.5 * (height_px - 1);
   const double corner2 = half_x * half_x + half_y * half_y;
   for (int y = 0; y < height_px; ++y) {
     for (int x = 0; x < width_px; ++x) {
       const double radius2 = (x - half_x) * (x - half_x) + (y - half_y) * (y - half_y);
-      const double falloff = 1.0 - model.corner_falloff * (radius2 / corner2);
-      gain_dn_.at(x, y) = static_cast<float>(255.0 * model.exposure * falloff);
+      const double lost = corner2 > 0.0 ? corner_falloff * (radius2 / corner2) : 0.0;
+      falloff.at(x, y) = static_cast<float>(1.0 - lost);
+    }
+  }
+  return falloff;
+}
+
+// One pixel to the next: what the charge takes up of what has spilt so far.
+void take_up(float well, float& charge, float& spilt) {
+  const float taken = std::min(spilt, std::max(0.0F, well - charge));
+  charge += taken;
+  spilt -= taken;
+}
+
+}  // namespace
+
+Sensor::Sensor(const SensorModel& model, int width_px, int height_px)
+    : model_(model),
+      falloff_(falloff_of(model.corner_falloff, width_px, height_px)),
+      charge_dn_(width_px, height_px),
+      spilt_dn_(static_cast<std::size_t>(width_px)),
+      upwards_dn_(width_px, height_px),
+      deviates_(static_cast<std::size_t>(width_px) + 3) {}
+
+// Whether some pixel holds more than it can.
+bool Sensor::collect(const FloatImage& light, const Exposure& exposure) {
+  const auto factor = static_cast<float>(255.0 * model_.sensitivity * exposure.opening *
+                                         (exposure.duration_s / kReferenceExposure_s));
+  const auto well = static_cast<float>(model_.full_well_dn);
+  int over = 0;
+  for (int y = 0; y < charge_dn_.height_px(); ++y) {
+    const float* in = &light.at(0, y);
+    const float* share = &falloff_.at(0, y);
+    float* charge = &charge_dn_.at(0, y);
+    for (int x = 0; x < charge_dn_.width_px(); ++x) {
+      charge[x] = factor * share[x] * in[x];
+      over |= charge[x] > well ? 1 : 0;
+    }
+  }
+  return over != 0;
+}
+
+// All columns at once, row by row: first down, where most goes, then up.
+void Sensor::bloom() {
+  const auto well = static_cast<float>(model_.full_well_dn);
+  const auto share = static_cast<float>(model_.bloom_share);
+  const int width = charge_dn_.width_px();
+  const int height = charge_dn_.height_px();
+  float* spilt = spilt_dn_.data();
+  std::fill_n(spilt, width, 0.0F);
+  for (int y = 0; y < height; ++y) {
+    float* charge = &charge_dn_.at(0, y);
+    float* up = &upwards_dn_.at(0, y);
+    for (int x = 0; x < width; ++x) {
+      const float excess = share * std::max(0.0F, charge[x] - well);
+      charge[x] = std::min(charge[x], well);
+      take_up(well, charge[x], spilt[x]);
+      spilt[x] += kSpilledDown * excess;
+      up[x] = (1.0F - kSpilledDown) * excess;
+    }
+  }
+  std::fill_n(spilt, width, 0.0F);
+  for (int y = height - 1; y >= 0; --y) {
+    float* charge = &charge_dn_.at(0, y);
+    const float* up = &upwards_dn_.at(0, y);
+    for (int x = 0; x < width; ++x) {
+      take_up(well, charge[x], spilt[x]);
+      spilt[x] += up[x];
     }
   }
 }
 
-void Sensor::expose(const FloatImage& light, const NoiseKey& noise, GreyImage& image) const {
+// Normal deviates of row y, four to a word.
+void Sensor::draw_noise(std::uint64_t key, int y) {
+  const NormalDeviates& normal = normal_deviates();
+  const std::size_t words = deviates_.size() / 4;
+  const std::uint64_t first = static_cast<std::uint64_t>(y) * words;
+  float* out = deviates_.data();
+  for (std::size_t i = 0; i < words; ++i, out += 4) {
+    const std::uint64_t word = mix(key + (first + i) * 0x9E3779B97F4A7C15ULL);
+    out[0] = normal[word & 0xFFFFU];
+    out[1] = normal[(word >> 16U) & 0xFFFFU];
+    out[2] = normal[(word >> 32U) & 0xFFFFU];
+    out[3] = normal[word >> 48U];
+  }
+}
+
+void Sensor::read_row(int y, double gain, std::uint8_t* grey) const {
+  const auto black = static_cast<float>(model_.black_level_dn) + 0.5F;  // rounds what follows
+  const auto g = static_cast<float>(gain);
+  const auto read2 = static_cast<float>(model_.read_noise_dn * model_.read_noise_dn);
+  const auto shot = static_cast<float>(1.0 / model_.electrons_per_dn);
+  const float* charge = &charge_dn_.at(0, y);
+  const float* deviate = deviates_.data();
+  for (int x = 0; x < charge_dn_.width_px(); ++x) {
+    const float sigma = std::sqrt(read2 + shot * charge[x]);
+    const float dn = black + g * (charge[x] + sigma * deviate[x]);
+    grey[x] = static_cast<std::uint8_t>(static_cast<int>(std::min(std::max(dn, 0.0F), 255.0F)));
+  }
+}
+
+void Sensor::expose(const FloatImage& light, const Exposure& exposure, GreyImage& image) {
+  if (collect(light, exposure)) bloom();
+  const NoiseKey& noise = exposure.noise;
   const std::uint64_t key = mix(mix(noise.seed, noise.camera), noise.tick);
-  const double read2 = model_.read_noise_dn * model_.read_noise_dn;
-  std::uint64_t pixel = 0;
   for (int y = 0; y < image.height_px(); ++y) {
-    for (int x = 0; x < image.width_px(); ++x, pixel += 2) {
-      double dn = static_cast<double>(gain_dn_.at(x, y)) * static_cast<double>(light.at(x, y));
-      if (model_.noise) {
-        const double sigma_dn = std::sqrt(read2 + dn / model_.electrons_per_dn);
-        dn += sigma_dn * nearly_normal(mix(key + pixel), mix(key + pixel + 1));
-      }
-      image.at(x, y) = rounded(dn);
-    }
+    if (model_.noise) draw_noise(key, y);
+    read_row(y, exposure.gain, &image.at(0, y));
   }
 }
 

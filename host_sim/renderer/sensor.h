@@ -3,6 +3,7 @@
 // noise, saturation with blooming, rounding to 8 bits.
 
 #include <cstdint>
+#include <vector>
 
 #include "host_sim/renderer/image_buffer.h"
 
@@ -11,9 +12,9 @@ namespace dottrack::host_sim {
 inline constexpr double kReferenceExposure_s = 0.004;
 
 struct SensorModel {
-  double blur_sigma_px = 0.6;   // 0: none
-  double sensitivity = 1.0;     // radiance 1 gives 255 DN times this at the reference exposure,
-                                // unit gain and a fully open iris
+  double blur_sigma_px = 0.6;    // 0: none
+  double sensitivity = 1.0;      // radiance 1 gives 255 DN times this at the reference exposure,
+                                 // unit gain and a fully open iris
   double corner_falloff = 0.35;  // share of the light that is lost in the image's corners
   double black_level_dn = 0.0;
   double read_noise_dn = 1.0;      // standard deviation at unit gain
@@ -57,9 +58,17 @@ class Sensor {
   void expose(const FloatImage& light, const Exposure& exposure, GreyImage& image);
 
  private:
+  bool collect(const FloatImage& light, const Exposure& exposure);
+  void bloom();
+  void draw_noise(std::uint64_t key, int y);
+  void read_row(int y, double gain, std::uint8_t* grey) const;
+
   SensorModel model_;
-  FloatImage falloff_;  // 1 in the middle of the picture
-  FloatImage signal_dn_;
+  FloatImage falloff_;           // 1 in the middle of the picture
+  FloatImage charge_dn_;         // at unit gain, above black
+  std::vector<float> spilt_dn_;  // on its way along each column
+  FloatImage upwards_dn_;        // what each pixel spills upwards
+  std::vector<float> deviates_;  // of one row; zero without noise
 };
 
 }  // namespace dottrack::host_sim
