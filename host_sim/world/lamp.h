@@ -23,13 +23,14 @@ struct Lamp {
 struct LightChange {
   std::string group;  // prefix: "fluorescent" is all of them
   double at_s = 0.0;
-  double to = 1.0;       // level; 0 is off
-  double over_s = 0.0;   // 0: switched; else faded linearly
+  double to = 1.0;      // level; 0 is off
+  double over_s = 0.0;  // 0: switched; else faded linearly
 };
 
 // Levels of the groups over time.
 struct LightPlan {
-  std::vector<LightChange> changes;  // in order of time; those at or before 0 are the initial levels
+  std::vector<LightChange>
+      changes;  // in order of time; those at or before 0 are the initial levels
 
   // 1 for a group that no change names.
   double level(std::string_view group, double time_s) const;

@@ -29,6 +29,11 @@ TriangleMesh cylinder(const Eigen::Vector3d& base_m, const Eigen::Vector3d& axis
 TriangleMesh stump(const Eigen::Vector3d& base_m, const Eigen::Vector3d& axis, double length_m,
                    double base_radius_m, double top_radius_m, int sides = 16);
 
+// Turned about `axis` (unit) through `base_m`: (radius, way along the axis) from the bottom
+// upwards. Closed where the outermost radii are 0.
+TriangleMesh revolved(const Eigen::Vector3d& base_m, const Eigen::Vector3d& axis,
+                      const std::vector<Eigen::Vector2d>& profile_m, int sides = 16);
+
 // A round plate whose face's middle is `face_m`.
 TriangleMesh disc_plate(const Eigen::Vector3d& face_m, const Eigen::Vector3d& normal,
                         double radius_m, double thickness_m, int sides = 24);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host_sim/world/outline.h"
 #include "host_sim/world/random.h"
 #include "host_sim/world/rover.h"
 
@@ -16,7 +17,7 @@ constexpr double kToEdge_m = 0.085;
 constexpr double kDistinct_m = 0.03;
 
 TargetDot on_deck(const Eigen::Vector2d& p) {
-  return {{p.x(), p.y(), kDeckHeight_m + kDotLift_m}, kDiameter_m, Eigen::Vector3d::UnitZ()};
+  return {{p.x(), p.y(), kDeckHeight_m}, kDiameter_m, Eigen::Vector3d::UnitZ()};
 }
 
 std::vector<double> sorted_distances(const TargetLayout& layout, std::size_t from) {
@@ -28,17 +29,8 @@ std::vector<double> sorted_distances(const TargetLayout& layout, std::size_t fro
   return distances;
 }
 
-double to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-  return (p - a - t * (b - a)).norm();
-}
-
 bool has_room_on_deck(const Eigen::Vector2d& p) {
-  const auto& outline = deck_outline();
-  if (!inside_outline(outline, p)) return false;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    if (to_segment(p, outline[i], outline[(i + 1) % outline.size()]) < kToEdge_m) return false;
-  }
+  if (!inside(deck_outline(), p) || distance_to_edge(deck_outline(), p) < kToEdge_m) return false;
   const auto clear = [&](const Keepout& k) { return (p - k.middle).norm() >= k.radius_m; };
   return std::all_of(deck_keepouts().begin(), deck_keepouts().end(), clear);
 }
