@@ -28,11 +28,11 @@ struct CameraFault {
 };
 
 struct IrisModel {
-  double opening = 1.0;        // at the start; share of the light of a fully open iris
+  double opening = 1.0;  // at the start; share of the light of a fully open iris
   double min_opening = 0.05;
-  double speed_per_s = 0.5;    // of the opening
-  double backlash = 0.02;      // lost whenever the direction changes
-  double drift_per_s = 0.0;    // the auto-iris wanders off: relative change of the light
+  double speed_per_s = 0.5;  // of the opening
+  double backlash = 0.02;    // lost whenever the direction changes
+  double drift_per_s = 0.0;  // the auto-iris wanders off: relative change of the light
 };
 
 struct CanOutage {

@@ -34,6 +34,13 @@ struct DotAppearance {
   double max_step_m = 0.2;
 };
 
+// A part of a run that counts by itself: one line of a crane, one place of a survey.
+struct Span {
+  std::string name;
+  double from_s = 0.0;
+  double to_s = 0.0;
+};
+
 struct Scene {
   std::string name;
   std::string description;  // one line
@@ -46,7 +53,9 @@ struct Scene {
   std::vector<SceneCamera> cameras;
   // The body that carries the target; absent in a scene with nothing but look-alikes.
   std::optional<std::size_t> vehicle;
-  TargetLayout target;  // on the vehicle, or looked for in vain where there is none
+  TargetLayout target;      // on the vehicle, or looked for in vain where there is none
+  std::vector<Span> spans;  // in order of time; empty where the run is of one piece
+  std::vector<Eigen::Vector3d> surveyed_dots_m;  // large dots that the cameras are calibrated by
   DotAppearance appearance;
   GrabberModel grabber;
   std::vector<CameraFault> camera_faults;

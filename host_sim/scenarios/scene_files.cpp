@@ -2,15 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <fstream>
-#include <mutex>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
 
-#include "host_sim/renderer/cahvor_text.h"
-#include "host_sim/scenarios/parallel.h"
+#include "host_sim/renderer/camera_text.h"
 
 namespace dottrack::host_sim {
 namespace {
@@ -25,39 +23,29 @@ Result<void> make_folder(const fs::path& folder) {
   return {};
 }
 
-Result<void> write_bytes(const fs::path& file, std::string_view head, std::string_view body = {}) {
+Result<void> write_bytes(const fs::path& file, std::string_view bytes) {
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out.write(head.data(), static_cast<std::streamsize>(head.size()));
-  out.write(body.data(), static_cast<std::streamsize>(body.size()));
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();
   if (!out) return fail(fmt::format("{}: cannot write the file", file.string()));
   return {};
 }
 
-Result<void> write_pgm(const fs::path& file, const GreyImage& image) {
-  const std::string head = fmt::format("P5\n{} {}\n255\n", image.width_px(), image.height_px());
-  const auto* bytes = reinterpret_cast<const char*>(image.pixels().data());
-  return write_bytes(file, head, {bytes, image.pixels().size()});
-}
-
-// The tick in a name like 000012.pgm; nothing for any other name.
-std::optional<std::uint64_t> tick_of(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  const bool digits = stem.size() == 6 && stem.find_first_not_of("0123456789") == std::string::npos;
-  if (!digits || file.extension() != ".pgm") return std::nullopt;
-  return std::stoull(stem);
-}
-
-Result<void> remove_ticks_from(std::uint64_t first, const fs::path& folder) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const auto tick = tick_of(entry.path());
-    if (!tick || *tick < first) continue;
-    if (!fs::remove(entry.path(), error)) break;
+// What the text says of itself: the model's usual ending.
+std::string_view ending(const Lens& lens) {
+  switch (lens.kind) {
+    case LensKind::pinhole:
+      return ".cahv";
+    case LensKind::radial:
+      return ".cahvor";
+    case LensKind::fisheye:
+      return ".cahvore";
   }
-  if (!error) return {};
-  return fail(
-      fmt::format("{}: cannot remove an older run's images: {}", folder.string(), error.message()));
+  return ".txt";
+}
+
+std::string model_file(const SceneCamera& camera) {
+  return camera.name + std::string(ending(camera.camera.lens()));
 }
 
 std::string rig_toml(const Scene& scene) {
@@ -67,10 +55,10 @@ std::string rig_toml(const Scene& scene) {
   if (text.find('.', text.rfind('=')) == std::string::npos) text.insert(text.size() - 1, ".0");
   for (const SceneCamera& camera : scene.cameras) {
     text += fmt::format(
-        "\n[[camera]]\nname = \"{0}\"\nmodel = \"{0}.cahvor\"\ndistance_m = [{1:.3f}, {2:.3f}]\n"
+        "\n[[camera]]\nname = \"{0}\"\nmodel = \"{7}\"\ndistance_m = [{1:.3f}, {2:.3f}]\n"
         "intensity_dn = [{3}, {4}]\nmin_contrast_dn = {5}\nbackground_px = {6}\n",
         camera.name, dots.distance_min_m, dots.distance_max_m, dots.intensity_min_dn,
-        dots.intensity_max_dn, dots.min_contrast_dn, dots.background_px);
+        dots.intensity_max_dn, dots.min_contrast_dn, dots.background_px, model_file(camera));
   }
   text += fmt::format(
       "\n[target]\nname = \"rover\"\ndots = \"target.csv\"\nupright = true\nmax_step_m = {:.3f}\n",
@@ -89,59 +77,29 @@ std::string target_csv(const TargetLayout& dots) {
   return text;
 }
 
-std::string tum_line(double t, const Eigen::Vector3d& p, const Eigen::Quaterniond& q) {
-  return fmt::format("{:.9f} {:.12f} {:.12f} {:.12f} {:.15f} {:.15f} {:.15f} {:.15f}\n", t, p.x(),
-                     p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
-}
-
 }  // namespace
 
-Result<void> write_rig(const Scene& scene, const fs::path& folder) {
+Result<void> write_rig(const Scene& scene, const fs::path& folder,
+                       std::span<const SimCamera> models) {
+  assert(models.empty() || models.size() == scene.cameras.size());
   if (auto made = make_folder(folder); !made) return made;
-  for (const SceneCamera& camera : scene.cameras) {
-    const std::string text = cahvor_text(camera.camera, "simulated ceiling camera " + camera.name);
-    if (auto done = write_bytes(folder / (camera.name + ".cahvor"), text); !done) return done;
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    const SceneCamera& camera = scene.cameras[i];
+    const std::string text = camera_text(models.empty() ? camera.camera : models[i],
+                                         "simulated ceiling camera " + camera.name);
+    if (auto done = write_bytes(folder / model_file(camera), text); !done) return done;
   }
   if (auto done = write_bytes(folder / "target.csv", target_csv(scene.target)); !done) return done;
   return write_bytes(folder / "rig.toml", rig_toml(scene));
 }
 
-Result<void> write_frames(const Scene& scene, std::uint64_t ticks, const fs::path& folder,
-                          unsigned threads) {
-  for (const SceneCamera& camera : scene.cameras) {
-    if (auto made = make_folder(folder / camera.name); !made) return made;
-    if (auto gone = remove_ticks_from(ticks, folder / camera.name); !gone) return gone;
+Result<void> write_pgm(const fs::path& file, const ImageView& image) {
+  std::string bytes = fmt::format("P5\n{} {}\n255\n", image.width_px, image.height_px);
+  for (int y = 0; y < image.height_px; ++y) {
+    bytes.append(reinterpret_cast<const char*>(image.row(y)),
+                 static_cast<std::size_t>(image.width_px));
   }
-  SceneRenderer renderer(scene, threads);
-  std::mutex mutex;
-  std::optional<Error> failure;
-  for_each_index(scene.cameras.size(), threads, [&](std::size_t i) {
-    GreyImage image;
-    for (std::uint64_t tick = 0; tick < ticks; ++tick) {
-      renderer.render_camera(i, tick, image);
-      const auto written =
-          write_pgm(folder / scene.cameras[i].name / fmt::format("{:06}.pgm", tick), image);
-      if (written) continue;
-      const std::lock_guard lock(mutex);
-      failure = written.error();
-      return;
-    }
-  });
-  if (failure) return tl::unexpected<Error>(*failure);
-  return {};
-}
-
-Result<void> write_truth(const Scene& scene, std::uint64_t ticks, const fs::path& file) {
-  std::string text;
-  Eigen::Quaterniond last = truth(scene, 0).orientation();
-  for (std::uint64_t tick = 0; tick < ticks; ++tick) {
-    const Pose pose = truth(scene, tick);
-    Eigen::Quaterniond q = pose.orientation();
-    if (q.dot(last) < 0.0) q.coeffs() = -q.coeffs();
-    last = q;
-    text += tum_line(time_s(scene, tick), pose.position_m, q);
-  }
-  return write_bytes(file, text);
+  return write_bytes(file, bytes);
 }
 
 }  // namespace dottrack::host_sim

@@ -1,24 +1,21 @@
 #pragma once
 // A scene as files: what a rig, its recorder and its surveyor would have left behind.
 
-#include <cstdint>
 #include <filesystem>
+#include <span>
 
+#include "hal/base/image_view.h"
 #include "hal/base/result.h"
 #include "host_sim/scenarios/scene.h"
 
 namespace dottrack::host_sim {
 
-// folder/rig.toml, folder/<camera>.cahvor, folder/target.csv.
-Result<void> write_rig(const Scene& scene, const std::filesystem::path& folder);
+// folder/rig.toml, folder/<camera>.<kind of model>, folder/target.csv. `models`: what is told of
+// the cameras, in the scene's order; empty: the truth.
+Result<void> write_rig(const Scene& scene, const std::filesystem::path& folder,
+                       std::span<const SimCamera> models = {});
 
-// folder/<camera>/<tick, six digits>.pgm for ticks 0 to ticks - 1; later ticks that an older run
-// left there are removed. threads 0: as many as the machine has.
-Result<void> write_frames(const Scene& scene, std::uint64_t ticks,
-                          const std::filesystem::path& folder, unsigned threads = 0);
-
-// The vehicle's poses in TUM order, `t x y z qx qy qz qw`, one line a tick.
-Result<void> write_truth(const Scene& scene, std::uint64_t ticks,
-                         const std::filesystem::path& file);
+// A binary 8-bit PGM.
+Result<void> write_pgm(const std::filesystem::path& file, const ImageView& image);
 
 }  // namespace dottrack::host_sim

@@ -1,0 +1,41 @@
+#pragma once
+// A scene through all of its cameras.
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "host_sim/renderer/camera_view.h"
+#include "host_sim/scenarios/body_scenes.h"
+#include "host_sim/scenarios/scene.h"
+
+namespace dottrack::host_sim {
+
+// The bytes depend on the scene and the exposures alone, never on the number of threads. What a
+// thread throws is thrown again by the call. Not for two threads at once.
+class SceneRenderer {
+ public:
+  // Renders the hall without its bodies: seconds. `scene` must outlive this and stay as it is.
+  // threads 0: as many as the machine has.
+  explicit SceneRenderer(const Scene& scene, unsigned threads = 0);
+
+  // One exposure and one picture a camera, in the scene's order.
+  void render(std::span<const Exposure> exposures, std::vector<GreyImage>& images);
+
+  // The same hall and cameras with other bodies and another plan of the light.
+  void render(std::span<const Exposure> exposures, std::span<const MovingBody> bodies,
+              const LightPlan& light, std::vector<GreyImage>& images);
+
+  const Hall& hall() const { return hall_; }
+  // The scene's own, in its order.
+  std::span<const MovingBody> bodies() const { return bodies_.moving(); }
+
+ private:
+  const Scene& scene_;
+  unsigned threads_;
+  Hall hall_;
+  BodyScenes bodies_;
+  std::vector<std::unique_ptr<CameraView>> views_;
+};
+
+}  // namespace dottrack::host_sim
