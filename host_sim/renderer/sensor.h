@@ -40,7 +40,7 @@ struct Exposure {
   double duration_s = kReferenceExposure_s;
   double gain = 1.0;
   double opening = 1.0;  // share of the light of a fully open iris
-  NoiseKey noise;
+  NoiseKey noise{};
 };
 
 // Gaussian blur of the part `box` of `light`; samples outside the image repeat its border.
