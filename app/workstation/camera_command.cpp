@@ -13,6 +13,7 @@
 #include <string>
 
 #include "app/config/camera_file.h"
+#include "app/workstation/exit_status.h"
 
 namespace dottrack::workstation {
 namespace {
@@ -20,9 +21,6 @@ namespace {
 using geometry::CameraModel;
 using geometry::OpticsStatus;
 
-constexpr int kDone = 0;
-constexpr int kFailed = 1;
-constexpr int kWrongInput = 2;
 constexpr std::string_view kProjectHeader =
     "X,Y,Z,status,x,y,dx_dX,dx_dY,dx_dZ,dy_dX,dy_dY,dy_dZ\n";
 constexpr std::string_view kUnprojectHeader =
@@ -155,7 +153,7 @@ using LineFilter = Result<void> (*)(const CameraModel&, std::istream&, std::ostr
 
 int complain(const Error& error) {
   fmt::print(stderr, "dottrack: {}\n", error.message);
-  return kWrongInput;
+  return kWrongUse;
 }
 
 int run(const std::string& path, LineFilter lines) {

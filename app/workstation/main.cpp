@@ -7,12 +7,13 @@
 #include <string>
 
 #include "app/workstation/camera_command.h"
+#include "app/workstation/exit_status.h"
 #include "app/workstation/replay_command.h"
 
 namespace {
 
-constexpr int kFailed = 1;
-constexpr int kWrongUse = 2;
+using dottrack::workstation::kFailed;
+using dottrack::workstation::kWrongUse;
 
 // Only the first line of a message goes out: one clear line is the contract.
 void print_error(const std::string& message) {

@@ -2,6 +2,8 @@
 // The records of a run as text: poses.tum for trajectory tools, poses.csv for everything else.
 // docs/outputs.md describes the columns.
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -10,7 +12,11 @@
 
 namespace dottrack::workstation {
 
-// One line a tick that has a pose: `t x y z qx qy qz qw`, seconds and metres.
+// `t x y z qx qy qz qw`, seconds and metres, nine decimals each, with a line's end.
+std::string tum_line(Time stamp, const Eigen::Vector3d& position_m,
+                     const Eigen::Quaterniond& orientation);
+
+// One line a tick that has a pose.
 class TumWriter final : public telemetry::RecordWriter {
  public:
   explicit TumWriter(OutputFile& file) : file_(file) {}
@@ -19,7 +25,6 @@ class TumWriter final : public telemetry::RecordWriter {
   void do_write(const telemetry::CycleRecord& record) override;
 
   OutputFile& file_;
-  std::string line_;
 };
 
 // One line a tick, with a header. Times of the machine are not in it: the same images give the same

@@ -6,14 +6,11 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/workstation/exit_status.h"
 #include "app/workstation/replay.h"
 
 namespace dottrack::workstation {
 namespace {
-
-constexpr int kDone = 0;
-constexpr int kFailed = 1;
-constexpr int kWrongInput = 2;
 
 void print_error(const std::string& line) {
   fmt::print(stderr, "dottrack: {}\n", line);
@@ -50,7 +47,7 @@ int run(const ReplayOptions& options) {
   const Result<RunSummary> summary = replay(options);
   if (!summary) {
     print_error(summary.error().message);
-    return kWrongInput;
+    return kWrongUse;
   }
   if (!summary->output_fault.empty()) {
     print_error(summary->output_fault);

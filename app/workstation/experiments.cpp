@@ -1,0 +1,120 @@
+#include "app/workstation/experiments.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "app/workstation/sim_run.h"
+#include "app/workstation/trials.h"
+#include "host_sim/scenarios/scenario_file.h"
+#include "host_sim/scenarios/scene_renderer.h"
+#include "host_sim/survey/calibration.h"
+
+namespace dottrack::workstation {
+namespace {
+
+namespace fs = std::filesystem;
+using host_sim::Scene;
+
+constexpr std::array kBoth = {Models::perfect, Models::calibrated};
+
+const char* name_of(Models models) {
+  return models == Models::perfect ? "perfect" : "calibrated";
+}
+
+Result<Scene> load(const std::string& name) {
+  const auto file = host_sim::find_scenario(name);
+  if (!file) return tl::unexpected<Error>(file.error());
+  return host_sim::load_scenario(*file, {});
+}
+
+std::vector<host_sim::SimCamera> told_cameras(const Scene& scene, Models models) {
+  std::vector<host_sim::SimCamera> cameras;
+  for (const host_sim::SceneCamera& camera : scene.cameras) cameras.push_back(camera.camera);
+  if (models == Models::perfect) return cameras;
+  host_sim::CalibrationOptions options;
+  options.seed = scene.seed;
+  return host_sim::calibrated(cameras, scene.surveyed_dots_m, options);
+}
+
+class Runner {
+ public:
+  explicit Runner(const ExperimentOptions& options) : options_(options) {}
+
+  // The scenario under both kinds of models; `keep` takes what each run comes to.
+  template <class Keep>
+  Result<void> scenario(const std::string& name, Keep keep) {
+    const Result<Scene> scene = load(name);
+    if (!scene) return tl::unexpected<Error>(scene.error());
+    host_sim::SceneRenderer renderer(*scene, options_.threads);
+    for (const Models models : kBoth) {
+      const auto told = told_cameras(*scene, models);
+      SimOptions sim;
+      sim.out = options_.out / fmt::format("{}_{}", name, name_of(models));
+      sim.models = told;
+      sim.go_on = [&](std::uint64_t done) {
+        return go_on(
+            fmt::format("{}, {} models: tick {} of {}", name, name_of(models), done, scene->ticks));
+      };
+      const auto run = simulate(*scene, renderer, sim);
+      if (!run) return tl::unexpected<Error>(run.error());
+      if (!run->loop.output_fault.empty()) return fail(run->loop.output_fault);
+      keep(models, *scene, *run);
+    }
+    return {};
+  }
+
+  Result<void> acquisitions(std::vector<AcquisitionFigures>& figures) {
+    const Result<Scene> scene = load("drive");
+    if (!scene) return tl::unexpected<Error>(scene.error());
+    host_sim::SceneRenderer renderer(*scene, options_.threads);
+    for (const int dots : {3, 4, 8}) {
+      TrialOptions trials;
+      trials.out = options_.out / fmt::format("acquisitions_{}", dots);
+      trials.count = options_.placements;
+      trials.dots = dots;
+      trials.go_on = [&](std::uint64_t done) {
+        return go_on(fmt::format("acquisition, {} dots: placement {} of {}", dots, done,
+                                 options_.placements));
+      };
+      const auto run = run_trials(*scene, renderer, trials);
+      if (!run) return tl::unexpected<Error>(run.error());
+      figures.push_back(acquisition_figures(dots, run->trials));
+    }
+    return {};
+  }
+
+ private:
+  bool go_on(const std::string& what) const { return !options_.go_on || options_.go_on(what); }
+
+  const ExperimentOptions& options_;
+};
+
+}  // namespace
+
+Result<Experiments> run_experiments(const ExperimentOptions& options) {
+  Experiments all;
+  Runner runner(options);
+  auto done = runner.scenario("survey_grid", [&](Models m, const Scene& scene, const auto& run) {
+    all.survey[static_cast<int>(m)] = survey_figures(run.rows, scene.spans);
+  });
+  if (!done) return tl::unexpected<Error>(done.error());
+  done = runner.scenario("crane_lines", [&](Models m, const Scene& scene, const auto& run) {
+    all.lines[static_cast<int>(m)] = line_figures(run.rows, scene.spans);
+  });
+  if (!done) return tl::unexpected<Error>(done.error());
+  done = runner.scenario("ramp", [&](Models m, const Scene&, const auto& run) {
+    all.ramp[static_cast<int>(m)] = drive_figures(run.rows);
+  });
+  if (!done) return tl::unexpected<Error>(done.error());
+  done = runner.scenario("drive", [&](Models m, const Scene&, const auto& run) {
+    all.drive[static_cast<int>(m)] = drive_figures(run.rows);
+  });
+  if (!done) return tl::unexpected<Error>(done.error());
+  done = runner.acquisitions(all.acquisitions);
+  if (!done) return tl::unexpected<Error>(done.error());
+  return all;
+}
+
+}  // namespace dottrack::workstation
