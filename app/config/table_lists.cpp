@@ -61,10 +61,9 @@ std::vector<double> TableReader::numbers(std::string_view key, std::size_t size,
   return read_row(key, *table_.get(key), size, rule).value_or(nothing);
 }
 
-std::vector<std::vector<double>> TableReader::number_rows(std::string_view key, std::size_t columns,
-                                                          std::size_t at_least,
-                                                          const NumberRule& rule) {
-  std::vector<std::vector<double>> rows;
+std::vector<NumberRow> TableReader::number_rows(std::string_view key, std::size_t columns,
+                                                std::size_t at_least, const NumberRule& rule) {
+  std::vector<NumberRow> rows;
   if (!has(key)) {
     if (at_least > 0) complain_missing(key, rule.expected);
     return rows;
@@ -76,7 +75,7 @@ std::vector<std::vector<double>> TableReader::number_rows(std::string_view key, 
   }
   for (const toml::node& element : *list) {
     auto row = read_row(key, element, columns, rule);
-    if (row) rows.push_back(std::move(*row));
+    if (row) rows.push_back({std::move(*row), element.source().begin.line});
   }
   if (list->size() < at_least) {
     complain(key, fmt::format("a list of {}", list->size()), rule.expected);

@@ -77,6 +77,11 @@ void TableReader::complain(std::string_view key, std::string_view what, std::str
   complaint_.add(line(key), fmt::format("{} is {}", key, what), expected);
 }
 
+void TableReader::complain_at(std::size_t line_in_file, std::string_view what,
+                              std::string_view expected) {
+  complaint_.add(line_in_file, what, expected);
+}
+
 void TableReader::complain_missing(std::string_view key, std::string_view expected) {
   complaint_.add(line(), fmt::format("{} has no key \"{}\"", title_, key), expected);
 }

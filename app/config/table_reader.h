@@ -31,6 +31,12 @@ struct IntegerRule {
   std::string_view expected;
 };
 
+// Numbers, and the line that they stand on.
+struct NumberRow {
+  std::vector<double> values;
+  std::size_t line = 0;
+};
+
 // Every reading returns a value of the asked type; what does not fit is a complaint. Without a
 // fallback a key is required. A missing key is reported at the line of the table.
 class TableReader {
@@ -59,8 +65,8 @@ class TableReader {
                               const std::optional<std::vector<double>>& fallback,
                               const NumberRule& rule);
   // A list of such lists, `at_least` of them; empty without the key where none is needed.
-  std::vector<std::vector<double>> number_rows(std::string_view key, std::size_t columns,
-                                               std::size_t at_least, const NumberRule& rule);
+  std::vector<NumberRow> number_rows(std::string_view key, std::size_t columns,
+                                     std::size_t at_least, const NumberRule& rule);
 
   // The table under a key, or nullptr without the key.
   const toml::table* table(std::string_view key);
@@ -74,6 +80,8 @@ class TableReader {
 
   // Complains at the key's line: `key` is `what`.
   void complain(std::string_view key, std::string_view what, std::string_view expected);
+  // Complains at a line of the file.
+  void complain_at(std::size_t line, std::string_view what, std::string_view expected);
 
  private:
   void check_keys(std::initializer_list<std::string_view> keys);

@@ -1,0 +1,126 @@
+#include "host_sim/scenarios/visibility.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "host_sim/world/portable_math.h"
+
+namespace dottrack::host_sim {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kRim = 8;            // points on a dot's edge that are looked at
+constexpr int kHiddenOfRim = 2;    // so many may be hidden
+constexpr double kLift_m = 0.002;  // off the face that a dot is painted on
+
+struct Disc {
+  Vector3d middle;
+  Vector3d normal;
+  std::array<Vector3d, kRim> rim;
+};
+
+Disc disc_of(const TargetDot& dot, const Pose& vehicle) {
+  Disc disc;
+  disc.normal = vehicle.rotation * dot.normal;
+  disc.middle = vehicle.to_world(dot.centre_m) + kLift_m * disc.normal;
+  const Vector3d u = disc.normal.unitOrthogonal();
+  const Vector3d v = disc.normal.cross(u);
+  for (int i = 0; i < kRim; ++i) {
+    const double angle = 2.0 * kPi * i / kRim;
+    disc.rim[static_cast<std::size_t>(i)] =
+        disc.middle + 0.5 * dot.diameter_m * (cosine(angle) * u + sine(angle) * v);
+  }
+  return disc;
+}
+
+// All of the rim in the picture, and far enough apart.
+bool shows_large_enough(const SimCamera& camera, const Disc& disc) {
+  std::array<Eigen::Vector2d, kRim> pixels;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    if (!in_picture(camera, disc.rim[i])) return false;
+    pixels[i] = *camera.project(disc.rim[i]);
+  }
+  double widest_px = 0.0;
+  for (std::size_t i = 0; i < pixels.size() / 2; ++i) {
+    widest_px = std::max(widest_px, (pixels[i] - pixels[i + pixels.size() / 2]).norm());
+  }
+  return widest_px >= kSmallestDot_px;
+}
+
+class Sight {
+ public:
+  Sight(const Hall& hall, std::span<const MovingBody> bodies, double time_s) : hall_(hall) {
+    for (const MovingBody& body : bodies) {
+      if (const auto pose = (*body.motion)(time_s)) placed_.push_back({body.scene, *pose});
+    }
+  }
+
+  bool hidden(const Vector3d& eye, const Vector3d& p) const {
+    if (hall_.scene.blocked(eye, p)) return true;
+    return std::any_of(placed_.begin(), placed_.end(), [&](const Placed& body) {
+      return body.scene->blocked(body.pose.to_body(eye), body.pose.to_body(p));
+    });
+  }
+
+ private:
+  struct Placed {
+    const RayScene* scene;
+    Pose pose;
+  };
+
+  const Hall& hall_;
+  std::vector<Placed> placed_;
+};
+
+bool sees(const SimCamera& camera, const Disc& disc, const Sight& sight) {
+  const Vector3d& eye = camera.centre_m();
+  if ((eye - disc.middle).dot(disc.normal) <= 0.0) return false;
+  if (!shows_large_enough(camera, disc) || sight.hidden(eye, disc.middle)) return false;
+  const auto hidden = std::count_if(disc.rim.begin(), disc.rim.end(),
+                                    [&](const Vector3d& p) { return sight.hidden(eye, p); });
+  return hidden <= kHiddenOfRim;
+}
+
+}  // namespace
+
+bool in_picture(const SimCamera& camera, const Vector3d& p_world, double margin_px) {
+  const auto pixel = camera.project(p_world);
+  return pixel && pixel->x() >= margin_px - 0.5 && pixel->y() >= margin_px - 0.5 &&
+         pixel->x() <= camera.width_px() - 0.5 - margin_px &&
+         pixel->y() <= camera.height_px() - 0.5 - margin_px;
+}
+
+int cameras_on(std::span<const SceneCamera> cameras, const Vector3d& p_world, double margin_px) {
+  return static_cast<int>(std::count_if(
+      cameras.begin(), cameras.end(),
+      [&](const SceneCamera& camera) { return in_picture(camera.camera, p_world, margin_px); }));
+}
+
+Vector3d middle_of(const TargetLayout& target) {
+  Vector3d sum = Vector3d::Zero();
+  for (const TargetDot& dot : target) sum += dot.centre_m;
+  return sum / static_cast<double>(std::max<std::size_t>(target.size(), 1));
+}
+
+std::vector<int> views_of_dots(std::span<const SceneCamera> cameras, const TargetLayout& target,
+                               const Pose& vehicle, const Hall& hall,
+                               std::span<const MovingBody> bodies, double time_s) {
+  const Sight sight(hall, bodies, time_s);
+  std::vector<int> views;
+  for (const TargetDot& dot : target) {
+    const Disc disc = disc_of(dot, vehicle);
+    views.push_back(static_cast<int>(std::count_if(
+        cameras.begin(), cameras.end(),
+        [&](const SceneCamera& camera) { return sees(camera.camera, disc, sight); })));
+  }
+  return views;
+}
+
+int dots_in_two_views(std::span<const int> views) {
+  return static_cast<int>(
+      std::count_if(views.begin(), views.end(), [](int cameras) { return cameras >= 2; }));
+}
+
+}  // namespace dottrack::host_sim
