@@ -10,10 +10,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kDune_m = 0.082;  // amplitudes and sizes
-constexpr double kDuneSize_m = 2.6;
-constexpr double kHollow_m = 0.036;
-constexpr double kHollowSize_m = 1.15;
+constexpr double kDune_m = 0.092;  // amplitudes and sizes
+constexpr double kDuneSize_m = 1.9;
+constexpr double kHollow_m = 0.020;
+constexpr double kHollowSize_m = 1.0;
 constexpr double kAtBoards_m = 0.9;  // over which the sand flattens towards the boards
 constexpr double kAtRamp_m = 1.2;    // and towards a ramp
 constexpr double kRampRounding_m = 0.2;

@@ -1,15 +1,15 @@
-// What a world is made of: arithmetic, random numbers, shapes, motion, target layouts.
+// What a world is made of: arithmetic, random numbers, light plans, materials, target layouts.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 
-#include "host_sim/scenarios/scenes.h"
-#include "host_sim/world/drive_path.h"
+#include "host_sim/world/lamp.h"
+#include "host_sim/world/material.h"
+#include "host_sim/world/outline.h"
 #include "host_sim/world/portable_math.h"
 #include "host_sim/world/random.h"
-#include "host_sim/world/shapes.h"
+#include "host_sim/world/rover.h"
 #include "host_sim/world/target_layout.h"
 
 namespace dottrack::host_sim {
@@ -48,86 +48,69 @@ TEST(RandomStreamTest, NoiseHasMeanZeroAndVarianceOne) {
   EXPECT_NEAR(squares / kCount, 1.0, 0.015);
 }
 
-struct Meeting {
-  Shape shape;
-  double distance;
-  Vector3d normal;
-};
-
-TEST(ShapesTest, LinesMeetThemWhereGeometrySays) {
-  const Line down{{0.1, 0.05, 5.0}, {0.0, 0.0, -2.0}};
-  const std::vector<Meeting> meetings = {
-      {Disc{{0.0, 0.0, 1.0}, Vector3d::UnitZ(), 0.2}, 2.0, Vector3d::UnitZ()},
-      {Disc{{0.0, 0.0, 1.0}, -Vector3d::UnitZ(), 0.2}, 2.0, Vector3d::UnitZ()},
-      {make_outline({0, 0, 2}, Vector3d::UnitX(), Vector3d::UnitY(), {{-1, -1}, {1, -1}, {0, 1}}),
-       1.5, Vector3d::UnitZ()},
-      {make_box({{0.0, 0.0, 0.5}, Eigen::Matrix3d::Identity()}, {1.0, 1.0, 1.0}), 2.0,
-       Vector3d::UnitZ()},
-      {Cylinder{{-1.0, 0.05, 0.0}, Vector3d::UnitX(), 2.0, 0.5}, 2.25, Vector3d::UnitZ()},
-      {Cylinder{{0.0, 0.0, 0.0}, Vector3d::UnitZ(), 3.0, 0.5}, 1.0, Vector3d::UnitZ()},
-      {Ball{{0.1, 0.05, 0.0}, 1.0}, 2.0, Vector3d::UnitZ()},
-  };
-  for (const Meeting& m : meetings) {
-    Hit hit;
-    ASSERT_TRUE(intersect(m.shape, down, hit)) << m.shape.index();
-    EXPECT_NEAR(hit.distance, m.distance, 1e-12) << m.shape.index();
-    EXPECT_LT((hit.normal - m.normal).norm(), 1e-9) << m.shape.index();
-    const Vector3d p = down.origin + hit.distance * down.direction;
-    const Ball bound = bounding_ball(m.shape);
-    EXPECT_LE((p - bound.centre).norm(), bound.radius_m * (1.0 + 1e-9)) << m.shape.index();
-  }
+TEST(LightPlanTest, SwitchesAndFades) {
+  LightPlan plan;
+  plan.changes = {{"sun", 0.0, 0.0, 0.0},
+                  {"fluorescent", 2.0, 0.2, 0.0},
+                  {"sun", 3.0, 1.0, 4.0},
+                  {"fluorescent_east", 5.0, 1.0, 1.0}};
+  EXPECT_EQ(plan.level("sun", 2.9), 0.0);
+  EXPECT_DOUBLE_EQ(plan.level("sun", 4.0), 0.25);
+  EXPECT_DOUBLE_EQ(plan.level("sun", 7.0), 1.0);
+  EXPECT_EQ(plan.level("fluorescent_west", 1.999), 1.0);
+  EXPECT_EQ(plan.level("fluorescent_west", 2.0), 0.2);
+  EXPECT_EQ(plan.level("fluorescent_west", 9.0), 0.2);
+  EXPECT_DOUBLE_EQ(plan.level("fluorescent_east", 5.5), 0.6);
+  EXPECT_EQ(plan.level("fluorescent_east", 9.0), 1.0);
+  EXPECT_EQ(plan.level("window", 9.0), 1.0);
 }
 
-TEST(ShapesTest, LinesMissWhatIsBesideOrBehindThem) {
-  const Line beside{{3.0, 0.0, 5.0}, {0.0, 0.0, -1.0}};
-  const Line upwards{{0.0, 0.0, 5.0}, {0.0, 0.0, 1.0}};
-  const std::vector<Shape> shapes = {
-      Disc{{0.0, 0.0, 1.0}, Vector3d::UnitZ(), 0.2},
-      make_outline({0, 0, 2}, Vector3d::UnitX(), Vector3d::UnitY(), {{-1, -1}, {1, -1}, {0, 1}}),
-      make_box({{0.0, 0.0, 0.5}, Eigen::Matrix3d::Identity()}, {1.0, 1.0, 1.0}),
-      Cylinder{{0.0, 0.0, 0.0}, Vector3d::UnitZ(), 3.0, 0.5}, Ball{{0.0, 0.0, 0.0}, 1.0}};
-  Hit hit;
-  for (const Shape& shape : shapes) {
-    EXPECT_FALSE(intersect(shape, beside, hit)) << shape.index();
-    EXPECT_FALSE(intersect(shape, upwards, hit)) << shape.index();
-  }
+TEST(LightPlanTest, WhatIsSaidOfTheStartHoldsFromTheStart) {
+  LightPlan plan;
+  plan.changes = {{"sun", 0.0, 0.3, 5.0}};
+  EXPECT_EQ(plan.level("sun", 0.0), 0.3);
+  EXPECT_EQ(plan.level("sun", -1.0), 0.3);
 }
 
-TEST(ShapesTest, AnOutlineMayHaveABay) {
-  const std::vector<Eigen::Vector2d> horseshoe = {{0, 0}, {3, 0}, {3, 3}, {2, 3},
-                                                  {2, 1}, {1, 1}, {1, 3}, {0, 3}};
-  EXPECT_TRUE(inside_outline(horseshoe, {0.5, 2.0}));
-  EXPECT_TRUE(inside_outline(horseshoe, {2.5, 2.0}));
-  EXPECT_FALSE(inside_outline(horseshoe, {1.5, 2.0}));
-  EXPECT_FALSE(inside_outline(horseshoe, {4.0, 2.0}));
-}
-
-TEST(DrivePathTest, StartsWhereAndAsItIsTold) {
-  const DrivePath path = starting_at({}, {1.2, -0.7}, 2.1);
-  const Pose pose = pose_at(path, 0.0);
-  EXPECT_NEAR(pose.position_m.x(), 1.2, 1e-12);
-  EXPECT_NEAR(pose.position_m.y(), -0.7, 1e-12);
-  const Vector3d forward = pose.rotation.col(0);
-  EXPECT_NEAR(std::atan2(forward.y(), forward.x()), 2.1, 1e-9);
-}
-
-TEST(DrivePathTest, DrivesForwardAtAWalkersPaceAndStaysUpright) {
-  const Scene scene = make_demo_scene(1);
-  for (std::uint64_t tick = 0; tick < 900; ++tick) {
-    const Pose a = truth(scene, tick);
-    const Pose b = truth(scene, tick + 1);
-    const Vector3d step = b.position_m - a.position_m;
-    const double speed_m_s = step.norm() * scene.frame_rate_hz;
-    EXPECT_GT(speed_m_s, 0.15) << tick;
-    EXPECT_LT(speed_m_s, 0.7) << tick;
-    EXPECT_GT(step.normalized().dot(a.rotation.col(0)), 0.97) << tick;
-    EXPECT_GT(a.rotation(2, 2), 0.99) << tick;
-    EXPECT_LT((a.rotation * a.rotation.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
-    for (const TargetDot& dot : scene.target) {
-      const Vector3d moved = b.to_world(dot.centre_m) - a.to_world(dot.centre_m);
-      EXPECT_LT(moved.norm(), 1.5 * 0.5 * dot.diameter_m) << tick;  // the tracker's window
+TEST(MaterialTest, PatternsKeepTheirMeanAndStayPossible) {
+  for (const Pattern pattern :
+       {Pattern::mottled, Pattern::planks, Pattern::sand, Pattern::concrete}) {
+    const Material material{0.37, pattern, 0.0, 3};
+    RandomStream random(5, 1);
+    double sum = 0.0;
+    for (int i = 0; i < 4000; ++i) {
+      const Eigen::Vector3d p{random.uniform(-9.0, 9.0), random.uniform(-4.0, 4.0),
+                              random.uniform(0.0, 2.0)};
+      const double albedo = albedo_at(material, p, 0.01);
+      ASSERT_GT(albedo, 0.05);
+      ASSERT_LT(albedo, 0.75);
+      sum += albedo;
     }
+    EXPECT_NEAR(sum / 4000.0, 0.37, 0.025) << static_cast<int>(pattern);
   }
+}
+
+TEST(MaterialTest, ASolarPanelIsDarkUnderItsDots) {
+  const Material cells{0.06, Pattern::cells, 0.25, 3};
+  for (double x = -0.6; x < 0.6; x += 0.0071) {
+    EXPECT_LT(albedo_at(cells, {x, 0.3 * x, 0.52}, 0.012), 0.25 * kDotAlbedo) << x;
+  }
+}
+
+TEST(MaterialTest, ReliefIsSmallAndLevelOnAverage) {
+  const Material sand{0.37, Pattern::sand, 0.0, 3};
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  double steepest = 1.0;
+  for (int i = 0; i < 4000; ++i) {
+    const Eigen::Vector3d p(0.0371 * i - 70.0, 0.0113 * i - 20.0, 0.0);
+    const Eigen::Vector3d n = relief_normal(sand, p, Eigen::Vector3d::UnitZ());
+    ASSERT_NEAR(n.norm(), 1.0, 1e-12);
+    steepest = std::min(steepest, n.z());
+    mean += n / 4000.0;
+  }
+  EXPECT_LT(mean.head<2>().norm(), 0.02);
+  EXPECT_GT(steepest, std::cos(radians(35.0)));
+  EXPECT_LT(steepest, std::cos(radians(10.0)));
 }
 
 TEST(TargetLayoutTest, TheDemosIsUnlikeItself) {
@@ -149,6 +132,10 @@ TEST(TargetLayoutTest, RandomOnesHaveAllTheirDotsApartAndAreUnlikeThemselves) {
       ASSERT_EQ(layout.size(), static_cast<std::size_t>(dots)) << seed;
       EXPECT_GE(distinctness_m(layout), 0.03) << dots << " dots, seed " << seed;
       for (std::size_t i = 0; i < layout.size(); ++i) {
+        const Eigen::Vector2d p = layout[i].centre_m.head<2>();
+        EXPECT_EQ(layout[i].centre_m.z(), kDeckHeight_m);
+        EXPECT_TRUE(inside(deck_outline(), p));
+        EXPECT_GT(distance_to_edge(deck_outline(), p), 0.5 * layout[i].diameter_m + 0.03);
         for (std::size_t j = 0; j < i; ++j) {
           EXPECT_GT((layout[i].centre_m - layout[j].centre_m).norm(), 1.5 * layout[i].diameter_m);
         }
