@@ -9,8 +9,7 @@
 
 namespace dottrack::config {
 
-std::size_t TableReader::choice(std::string_view key,
-                                std::initializer_list<std::string_view> words) {
+std::size_t TableReader::choice(std::string_view key, Words words) {
   if (!has(key)) return 0;
   const toml::node* node = table_.get(key);
   const std::string expected = fmt::format("one of {}", fmt::join(words, ", "));
@@ -19,7 +18,7 @@ std::size_t TableReader::choice(std::string_view key,
     complain_type(key, expected);
     return 0;
   }
-  const auto* found = std::find(words.begin(), words.end(), word->get());
+  const auto found = std::find(words.begin(), words.end(), word->get());
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
   complain(key, in_quotes(word->get()), expected);
   return 0;

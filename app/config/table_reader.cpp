@@ -44,13 +44,13 @@ std::string_view kind_of(const toml::node& node) {
 }
 
 TableReader::TableReader(Complaint& complaint, const toml::table& table, std::string title,
-                         std::initializer_list<std::string_view> keys)
+                         Words keys)
     : complaint_(complaint), table_(table), title_(std::move(title)) {
   check_keys(keys);
 }
 
 // Keys come in alphabetical order; the one that stands first in the file is the one to name.
-void TableReader::check_keys(std::initializer_list<std::string_view> keys) {
+void TableReader::check_keys(Words keys) {
   const toml::key* first_unknown = nullptr;
   for (const auto& [key, value] : table_) {
     if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;

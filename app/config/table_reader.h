@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -31,6 +32,8 @@ struct IntegerRule {
   std::string_view expected;
 };
 
+using Words = std::span<const std::string_view>;
+
 // Numbers, and the line that they stand on.
 struct NumberRow {
   std::vector<double> values;
@@ -42,8 +45,10 @@ struct NumberRow {
 class TableReader {
  public:
   // Complains of the first key that is not among `keys`. `title` is how messages call the table.
+  TableReader(Complaint& complaint, const toml::table& table, std::string title, Words keys);
   TableReader(Complaint& complaint, const toml::table& table, std::string title,
-              std::initializer_list<std::string_view> keys);
+              std::initializer_list<std::string_view> keys)
+      : TableReader(complaint, table, std::move(title), Words(keys.begin(), keys.size())) {}
 
   std::string text(std::string_view key, const std::optional<std::string>& fallback = std::nullopt);
   bool boolean(std::string_view key, bool fallback);
@@ -52,7 +57,10 @@ class TableReader {
   std::int64_t whole_number(std::string_view key, std::int64_t fallback, const IntegerRule& rule);
 
   // One of `words`, by its place among them; the first without the key.
-  std::size_t choice(std::string_view key, std::initializer_list<std::string_view> words);
+  std::size_t choice(std::string_view key, Words words);
+  std::size_t choice(std::string_view key, std::initializer_list<std::string_view> words) {
+    return choice(key, Words(words.begin(), words.size()));
+  }
 
   // Two numbers [low, high], each within the rule; low < high.
   std::pair<double, double> number_range(std::string_view key, const NumberRule& rule);
@@ -73,6 +81,7 @@ class TableReader {
   // The tables under a key, [[key]]; none without the key.
   std::vector<const toml::table*> tables(std::string_view key);
 
+  const Complaint& complaint() const { return complaint_; }
   bool has(std::string_view key) const { return table_.contains(key); }
   // Where the key stands; where the table stands when the key is missing.
   std::size_t line(std::string_view key) const;
@@ -84,7 +93,7 @@ class TableReader {
   void complain_at(std::size_t line, std::string_view what, std::string_view expected);
 
  private:
-  void check_keys(std::initializer_list<std::string_view> keys);
+  void check_keys(Words keys);
   void complain_missing(std::string_view key, std::string_view expected);
   void complain_type(std::string_view key, std::string_view expected);
   const toml::array* two_elements(std::string_view key, std::string_view expected);

@@ -49,9 +49,9 @@ bool shows_large_enough(const SimCamera& camera, const Disc& disc) {
   return widest_px >= kSmallestDot_px;
 }
 
-class Sight {
+class Obstacles {
  public:
-  Sight(const Hall& hall, std::span<const MovingBody> bodies, double time_s) : hall_(hall) {
+  Obstacles(const Hall& hall, std::span<const MovingBody> bodies, double time_s) : hall_(hall) {
     for (const MovingBody& body : bodies) {
       if (const auto pose = (*body.motion)(time_s)) placed_.push_back({body.scene, *pose});
     }
@@ -74,12 +74,12 @@ class Sight {
   std::vector<Placed> placed_;
 };
 
-bool sees(const SimCamera& camera, const Disc& disc, const Sight& sight) {
+bool sees(const SimCamera& camera, const Disc& disc, const Obstacles& obstacles) {
   const Vector3d& eye = camera.centre_m();
   if ((eye - disc.middle).dot(disc.normal) <= 0.0) return false;
-  if (!shows_large_enough(camera, disc) || sight.hidden(eye, disc.middle)) return false;
+  if (!shows_large_enough(camera, disc) || obstacles.hidden(eye, disc.middle)) return false;
   const auto hidden = std::count_if(disc.rim.begin(), disc.rim.end(),
-                                    [&](const Vector3d& p) { return sight.hidden(eye, p); });
+                                    [&](const Vector3d& p) { return obstacles.hidden(eye, p); });
   return hidden <= kHiddenOfRim;
 }
 
@@ -107,13 +107,13 @@ Vector3d middle_of(const TargetLayout& target) {
 std::vector<int> views_of_dots(std::span<const SceneCamera> cameras, const TargetLayout& target,
                                const Pose& vehicle, const Hall& hall,
                                std::span<const MovingBody> bodies, double time_s) {
-  const Sight sight(hall, bodies, time_s);
+  const Obstacles obstacles(hall, bodies, time_s);
   std::vector<int> views;
   for (const TargetDot& dot : target) {
     const Disc disc = disc_of(dot, vehicle);
     views.push_back(static_cast<int>(std::count_if(
         cameras.begin(), cameras.end(),
-        [&](const SceneCamera& camera) { return sees(camera.camera, disc, sight); })));
+        [&](const SceneCamera& camera) { return sees(camera.camera, disc, obstacles); })));
   }
   return views;
 }

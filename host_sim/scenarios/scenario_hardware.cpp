@@ -1,0 +1,112 @@
+// [grabber], [[camera_fault]], [iris], [can], [[can_outage]] and [dots].
+
+#include <algorithm>
+
+#include "host_sim/scenarios/scenario_reader.h"
+
+namespace dottrack::host_sim {
+namespace {
+
+constexpr NumberRule kMilliseconds{0.0, 1e4, "a number of milliseconds from 0 to 10000", true};
+constexpr NumberRule kOpening{0.0, 1.0, "a number above 0 and up to 1"};
+constexpr NumberRule kIrisSpeed{0.0, 100.0, "a number a second above 0 and up to 100"};
+constexpr NumberRule kDrift{-1.0, 1.0, "a number a second from -1 to 1", true};
+constexpr NumberRule kBitRate{9999.0, 1e6, "a number of bits a second from 10000 to 1000000"};
+constexpr NumberRule kLoad{0.0, 0.95, "a number from 0 to 0.95", true};
+constexpr NumberRule kDistance{0.0, 1000.0,
+                               "two numbers of metres, 0 < nearest < farthest <= 1000"};
+constexpr NumberRule kStep{0.0, 100.0, "a number of metres above 0 and up to 100"};
+constexpr IntegerRule kIntensity{0, 255, "two whole numbers, 0 <= darkest <= brightest <= 255"};
+constexpr IntegerRule kContrast{0, 254, "a whole number from 0 to 254"};
+constexpr IntegerRule kBackground{3, 255, "an odd whole number from 3 to 255"};
+
+void read_grabber(Complaint& complaint, const toml::table& table, GrabberModel& grabber) {
+  TableReader reader(complaint, table, "[grabber]", {"latency_ms", "jitter_ms", "drop_share"});
+  grabber.latency_s = 1e-3 * reader.number("latency_ms", 1e3 * grabber.latency_s, kMilliseconds);
+  grabber.jitter_s = 1e-3 * reader.number("jitter_ms", 1e3 * grabber.jitter_s, kMilliseconds);
+  grabber.drop_share = reader.number("drop_share", grabber.drop_share, kShare);
+}
+
+// Both ends of a span of time.
+template <class Span>
+void read_span(TableReader& reader, Span& span) {
+  span.from_s = reader.number("from_s", std::nullopt, kSeconds);
+  span.to_s = reader.number("to_s", std::nullopt, kSeconds);
+  if (!(span.from_s < span.to_s)) {
+    reader.complain("to_s", config::shortest(span.to_s), "a time after from_s");
+  }
+}
+
+CameraFault read_fault(Complaint& complaint, const toml::table& table, const Scene& scene) {
+  TableReader reader(complaint, table, "[[camera_fault]]", {"camera", "kind", "from_s", "to_s"});
+  CameraFault fault;
+  const std::string name = reader.text("camera");
+  const auto camera = std::find_if(scene.cameras.begin(), scene.cameras.end(),
+                                   [&](const SceneCamera& c) { return c.name == name; });
+  if (camera == scene.cameras.end()) {
+    reader.complain("camera", config::in_quotes(name), "the name of a camera of the scenario");
+  }
+  fault.camera = static_cast<std::size_t>(camera - scene.cameras.begin());
+  if (!reader.has("kind")) reader.text("kind");
+  fault.kind =
+      static_cast<CameraFaultKind>(reader.choice("kind", {"dead", "stuck", "torn", "late"}));
+  read_span(reader, fault);
+  return fault;
+}
+
+void read_iris(Complaint& complaint, const toml::table& table, IrisModel& iris) {
+  TableReader reader(complaint, table, "[iris]",
+                     {"opening", "min_opening", "speed_per_s", "backlash", "drift_per_s"});
+  iris.opening = reader.number("opening", iris.opening, kOpening);
+  iris.min_opening = reader.number("min_opening", iris.min_opening, kOpening);
+  iris.speed_per_s = reader.number("speed_per_s", iris.speed_per_s, kIrisSpeed);
+  iris.backlash = reader.number("backlash", iris.backlash, kShare);
+  iris.drift_per_s = reader.number("drift_per_s", iris.drift_per_s, kDrift);
+}
+
+void read_can(Complaint& complaint, const toml::table& table, CanModel& can) {
+  TableReader reader(complaint, table, "[can]", {"bit_rate", "load", "error_share"});
+  can.bit_rate = reader.number("bit_rate", can.bit_rate, kBitRate);
+  can.load = reader.number("load", can.load, kLoad);
+  can.error_share = reader.number("error_share", can.error_share, kLoad);
+}
+
+}  // namespace
+
+void read_hardware(Complaint& complaint, TableReader& root, Scene& scene) {
+  if (const auto* table = root.table("grabber")) read_grabber(complaint, *table, scene.grabber);
+  for (const toml::table* table : root.tables("camera_fault")) {
+    scene.camera_faults.push_back(read_fault(complaint, *table, scene));
+  }
+  if (const auto* table = root.table("iris")) read_iris(complaint, *table, scene.iris);
+  if (const auto* table = root.table("can")) read_can(complaint, *table, scene.can);
+  for (const toml::table* table : root.tables("can_outage")) {
+    TableReader reader(complaint, *table, "[[can_outage]]", {"from_s", "to_s"});
+    CanOutage outage;
+    read_span(reader, outage);
+    scene.can.bus_off.push_back(outage);
+  }
+}
+
+DotAppearance read_appearance(Complaint& complaint, const toml::table* table) {
+  DotAppearance dots;
+  if (table == nullptr) return dots;
+  TableReader reader(
+      complaint, *table, "[dots]",
+      {"distance_m", "intensity_dn", "min_contrast_dn", "background_px", "max_step_m"});
+  if (reader.has("distance_m")) {
+    std::tie(dots.distance_min_m, dots.distance_max_m) =
+        reader.number_range("distance_m", kDistance);
+  }
+  std::tie(dots.intensity_min_dn, dots.intensity_max_dn) = reader.integer_range(
+      "intensity_dn", {dots.intensity_min_dn, dots.intensity_max_dn}, kIntensity);
+  dots.min_contrast_dn = reader.integer("min_contrast_dn", dots.min_contrast_dn, kContrast);
+  dots.background_px = reader.integer("background_px", dots.background_px, kBackground);
+  if (dots.background_px % 2 == 0) {
+    reader.complain("background_px", std::to_string(dots.background_px), kBackground.expected);
+  }
+  dots.max_step_m = reader.number("max_step_m", dots.max_step_m, kStep);
+  return dots;
+}
+
+}  // namespace dottrack::host_sim
