@@ -46,7 +46,7 @@ struct Exposure {
 // Gaussian blur of the part `box` of `light`; samples outside the image repeat its border.
 void blur(const FloatImage& light, const PixelBox& box, double sigma_px, FloatImage& blurred);
 
-// How many pixels away the blur still reaches.
+// How many pixels away the blur still reaches: four sigmas, 16 pixels at most.
 int blur_reach_px(double sigma_px);
 
 class Sensor {

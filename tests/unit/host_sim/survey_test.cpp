@@ -96,7 +96,7 @@ TEST(SurveyTest, TheFitIsOffAsLeastSquaresSays) {
     int fits = 0;
     RandomStream random(8, 8);
     const auto noise = [&] { return double{normal_deviates()[random.word() & 0xFFFFU]}; };
-    for (int repeat = 0; repeat < 20; ++repeat) {
+    for (int repeat = 0; repeat < 8; ++repeat) {
       for (const SimCamera& truth : ceiling(kind)) {
         std::vector<Sighting> sightings;
         for (const Vector3d& dot : hall_dots()) {
@@ -118,7 +118,7 @@ TEST(SurveyTest, TheFitIsOffAsLeastSquaresSays) {
       }
     }
     EXPECT_NEAR(left_over / expected_left_over, 1.0, 0.03);
-    // 240 fits: 4 standard deviations of the mean of chi squares.
+    // 96 fits: 4 standard deviations of the mean of chi squares.
     const auto numbers = static_cast<double>(fitted_numbers(kind));
     EXPECT_NEAR(off / fits, numbers, 4.0 * std::sqrt(2.0 * numbers / fits));
   }
