@@ -79,7 +79,7 @@ void add_door(Model& hall, const Wall& wall, double along_m, RandomStream& rando
 void add_wall(Model& hall, const HallSite& site, const Wall& wall, RandomStream& random) {
   const int panels = std::max(1, static_cast<int>(wall.length_m / 3.6));
   const double panel_m = wall.length_m / panels;
-  const double shade = random.uniform(0.16, 0.50);
+  const double shade = random.uniform(0.22, 0.58);
   const double top_m = site.options.height_m;
   for (int i = 0; i < panels; ++i) {
     const double along_m = (i + 0.5) * panel_m - 0.5 * wall.length_m;
@@ -118,7 +118,7 @@ void add_ducts(Model& hall, const HallSite& site) {
   add_duct(hall, {west, -aside, top - 0.30}, {east, -aside, top - 0.30}, 0.20);
   for (const double x : {-0.21, 0.25}) {
     const double at = x * site.options.length_m;
-    add_duct(hall, {at, -aside, top - 0.1}, {at, aside, top - 0.1}, 0.15);
+    add_duct(hall, {at, -aside, top - 0.1}, {at, aside, top - 0.1}, 0.09);
   }
   for (const double x : {-0.44, 0.02, 0.40}) {  // down the southern wall
     const double at = x * site.options.length_m;

@@ -40,14 +40,14 @@ void place(Model& hall, GroundPlan& plan, const Piece& piece, const Vector2d& at
 void furnish_aisles(Model& hall, const HallSite& site, GroundPlan& plan, RandomStream& random) {
   const double reach = 0.38;  // from the wall to the middle of a piece
   const double north = site.north_m() - reach;
-  for (double x = site.west_m() + 0.7; x < site.half_length_m(); x += random.uniform(0.5, 1.3)) {
+  for (double x = site.west_m() + 0.7; x < site.half_length_m(); x += random.uniform(0.15, 0.5)) {
     const Piece left = against_wall(random);
     const Piece right = against_wall(random);
     place(hall, plan, left, {x, north}, random.uniform(-0.06, 0.06));
     place(hall, plan, right, {x, -north}, kPi + random.uniform(-0.06, 0.06));
   }
   const double west = site.west_m() + reach;
-  for (double y = -site.half_width_m(); y < site.half_width_m(); y += random.uniform(0.6, 1.3)) {
+  for (double y = -site.half_width_m(); y < site.half_width_m(); y += random.uniform(0.2, 0.6)) {
     const Piece piece = against_wall(random);
     place(hall, plan, piece, {west, y}, 0.5 * kPi + random.uniform(-0.06, 0.06));
   }
@@ -59,7 +59,7 @@ void furnish_bay(Model& hall, const HallSite& site, GroundPlan& plan, RandomStre
   const double far = site.east_m() - 0.7;
   const Vector2d platform{site.half_length_m() + 2.6, random.uniform(-2.5, 2.5)};
   place(hall, plan, {make_raised_floor(random.word()), 1.5}, platform, 0.5 * kPi);
-  for (int i = 0; i < 45; ++i) {
+  for (int i = 0; i < 90; ++i) {
     const Piece piece = against_wall(random);
     const Vector2d at{random.uniform(near, far), random.uniform(-0.9, 0.9) * site.north_m()};
     const double yaw_rad = random.uniform(0.0, 2.0 * kPi);
@@ -68,7 +68,7 @@ void furnish_bay(Model& hall, const HallSite& site, GroundPlan& plan, RandomStre
 }
 
 void scatter_tools(Model& hall, const HallSite& site, GroundPlan& plan, RandomStream& random) {
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 60; ++i) {
     const double side = random.uniform() < 0.5 ? -1.0 : 1.0;
     Vector2d at{random.uniform(-1.0, 1.0) * site.half_length_m(),
                 side * (site.half_width_m() + random.uniform(0.2, 0.8))};

@@ -38,7 +38,7 @@ void add_ramp(Model& hall, const Terrain& terrain) {
   side.emplace_back(reach_m, -0.05);
   side.emplace_back(-0.2, -0.05);
   std::reverse(side.begin(), side.end());
-  // A prism stands upright, so this one is made lying on its side: its z is the ramp's -y... left.
+  // A prism stands upright; this one lies on its side, its own z to the ramp's right.
   Pose lying;
   lying.rotation << 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0;
   TriangleMesh mesh = transformed(prism(side, -0.5 * ramp.width_m, 0.5 * ramp.width_m), lying);

@@ -10,6 +10,20 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+// A strap around an ellipsoid with these semi-axes, over its top, across its x axis.
+Cable strap(const Pose& middle, const Vector3d& semi_axes_m) {
+  constexpr int kPieces = 28;
+  Cable cable;
+  for (int i = 0; i <= kPieces; ++i) {
+    const double angle = 2.0 * kPi * i / kPieces;
+    const Vector3d p = middle.to_world(
+        {0.0, 1.005 * semi_axes_m.y() * cosine(angle), 1.005 * semi_axes_m.z() * sine(angle)});
+    cable.path.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()),
+                            static_cast<float>(p.z()), 0.007F);
+  }
+  return cable;
+}
+
 // Six lobes around a middle, overlapping, like a raspberry.
 void add_bags(Model& lander, const Vector3d& middle, double yaw_rad, RandomStream& random) {
   const Pose cluster = upright(middle, yaw_rad);
@@ -17,12 +31,14 @@ void add_bags(Model& lander, const Vector3d& middle, double yaw_rad, RandomStrea
     const double angle = radians(60.0 * lobe);
     const double rise = lobe % 2 == 0 ? 0.10 : -0.04;
     const Vector3d at(0.20 * cosine(angle), 0.25 * sine(angle), rise);
-    const double size = random.uniform(0.22, 0.27);
+    const double size = random.uniform(0.25, 0.31);
     const Vector3d axes{size * random.uniform(0.9, 1.1), size * random.uniform(0.9, 1.1),
                         size * random.uniform(0.85, 1.0)};
-    const Material bag{random.uniform(0.62, 0.80), Pattern::plain, 0.5};
-    add(lander, ellipsoid(upright(cluster.to_world(at), yaw_rad + angle), axes, 16), bag);
-    // A seam's patch and a tie, as the bags had.
+    const Material bag{random.uniform(0.58, 0.82), Pattern::plain, 0.5};
+    const Pose lobe_pose = upright(cluster.to_world(at), yaw_rad + angle);
+    add(lander, ellipsoid(lobe_pose, axes, 16), bag);
+    add(lander, strap(lobe_pose, axes), {0.42, Pattern::plain, 0.1});
+    // A tie on top, as the bags had.
     const Vector3d tie = cluster.to_world(at + Vector3d(0.0, 0.0, axes.z() - 0.004));
     add(lander, ellipsoid(upright(tie), {0.03, 0.03, 0.012}, 6), {0.45, Pattern::plain, 0.2});
   }
@@ -49,7 +65,7 @@ Model make_lander(std::uint64_t seed) {
   for (int petal = 0; petal < 4; ++petal) {
     const double yaw_rad = radians(90.0 * petal);
     add_petal(lander, yaw_rad);
-    const Vector3d at(0.86 * cosine(yaw_rad), 0.86 * sine(yaw_rad), 0.22);
+    const Vector3d at(0.74 * cosine(yaw_rad), 0.74 * sine(yaw_rad), 0.26);
     add_bags(lander, at, yaw_rad, random);
   }
   return lander;

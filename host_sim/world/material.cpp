@@ -77,7 +77,7 @@ double concrete(const Material& m, const Eigen::Vector2d& p, double window_m) {
 double sand_relief_m(const Eigen::Vector2d& p, std::uint64_t seed) {
   const double hummocks = 0.016 * fractal_noise(p / 0.35, 2, seed + 10);
   const double ripples =
-      0.004 * value_noise(Eigen::Vector2d(p.x() / 0.05, p.y() / 0.16), seed + 11);
+      0.003 * value_noise(Eigen::Vector2d(p.x() / 0.08, p.y() / 0.17), seed + 11);
   return hummocks + ripples + 0.0015 * value_noise(Eigen::Vector2d(p / 0.022), seed + 12);
 }
 

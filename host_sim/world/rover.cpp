@@ -203,15 +203,15 @@ Model make_hanging_target(const TargetLayout& dots) {
   const Material dark{0.07, Pattern::plain, 0.1};
   const Material steel{0.35, Pattern::plain, 0.4};
   paint_dots(target, add(target, prism(plate, kDeckHeight_m - 0.02, kDeckHeight_m), dark), dots);
-  const Vector3d ring = on_deck({0.0, 0.0}, 0.75);
+  const Vector3d ring = on_deck({-0.04, 0.0}, 0.60);
   for (const Vector2d& corner : plate) {
     add(target, rod({on_deck(0.97 * corner), ring}, 0.004), steel);
   }
-  const Vector3d hook = ring + Vector3d(0.0, 0.0, 1.6);
+  const Vector3d hook = ring + Vector3d(0.0, 0.0, 1.0);
   add(target, rod({ring, hook}, 0.014), steel);
   add(target, box(hook + Vector3d(0.0, 0.0, 0.16), {0.16, 0.10, 0.32}),
       {0.5, Pattern::stripes, 0.1});
-  add(target, rod({hook, hook + Vector3d(0.0, 0.0, 2.5)}, 0.010), steel);
+  add(target, rod({hook, hook + Vector3d(0.0, 0.0, 0.6)}, 0.010), steel);
   return target;
 }
 
