@@ -48,19 +48,27 @@ std::size_t pixels_of(const RecordedCamera& camera) {
 }  // namespace
 
 RecordedFrameGrabber::RecordedFrameGrabber(const fs::path& folder,
-                                           std::vector<RecordedCamera> cameras) {
+                                           std::vector<RecordedCamera> cameras,
+                                           WaitUntil wait_until)
+    : wait_until_(std::move(wait_until)) {
   assert(cameras.size() <= kMaxCameras);
   for (RecordedCamera& camera : cameras) {
     std::vector<std::uint8_t> pixels(pixels_of(camera));
     fs::path own = folder / camera.name;
-    sources_.push_back({std::move(camera), std::move(own), std::move(pixels), false, false});
+    sources_.push_back({std::move(camera), std::move(own), std::move(pixels), false, false, {}});
   }
 }
 
 Result<std::unique_ptr<RecordedFrameGrabber>> RecordedFrameGrabber::open(
-    const fs::path& folder, std::vector<RecordedCamera> cameras) {
+    const fs::path& folder, std::vector<RecordedCamera> cameras, WaitUntil wait_until) {
   std::unique_ptr<RecordedFrameGrabber> grabber(
-      new RecordedFrameGrabber(folder, std::move(cameras)));
+      new RecordedFrameGrabber(folder, std::move(cameras), std::move(wait_until)));
+  std::error_code ignored;
+  if (fs::exists(folder / "times.csv", ignored)) {
+    auto times = FrameTimesTable::read(folder / "times.csv");
+    if (!times) return tl::unexpected<Error>(times.error());
+    grabber->times_ = std::move(*times);
+  }
   std::string first_fault;
   bool readable = false;
   for (Source& source : grabber->sources_) {
@@ -92,20 +100,31 @@ std::vector<std::string> RecordedFrameGrabber::silent_cameras() const {
 std::vector<std::string> RecordedFrameGrabber::load(std::uint64_t tick) {
   const std::uint64_t shown = std::min(tick, recorded_ticks_ - 1);
   std::vector<std::string> faults;
+  shown_again_ = shown != tick;
   if (shown == loaded_tick_) return faults;
   loaded_tick_ = shown;
   for (Source& source : sources_) {
-    const fs::path file = source.folder / file_name(shown);
-    std::error_code ignored;
-    source.loaded = false;
-    if (!fs::exists(file, ignored)) continue;
-    const auto read =
-        read_pgm(file, source.camera.width_px, source.camera.height_px, source.pixels);
-    source.loaded = read.has_value();
-    if (!read) faults.push_back(read.error().message);
+    std::string fault = load_source(source, shown);
+    source.loaded = source.loaded && fault.empty();
+    if (!fault.empty()) faults.push_back(std::move(fault));
   }
   bad_frames_ += faults.size();
   return faults;
+}
+
+// What is wrong with the image; empty when nothing is, or when there is none.
+std::string RecordedFrameGrabber::load_source(Source& source, std::uint64_t tick) {
+  const fs::path file = source.folder / file_name(tick);
+  std::error_code ignored;
+  source.loaded = fs::exists(file, ignored);
+  if (!source.loaded) return {};
+  const auto read = read_pgm(file, source.camera.width_px, source.camera.height_px, source.pixels);
+  if (!read) return read.error().message;
+  if (!times_) return {};
+  const auto times = times_->find(tick, source.camera.name);
+  if (!times) return fmt::format("{} has no line in times.csv", file.string());
+  source.times = *times;
+  return {};
 }
 
 ImageView RecordedFrameGrabber::loaded_image(std::size_t camera) const {
@@ -119,18 +138,33 @@ void RecordedFrameGrabber::do_trigger(Time now) {
   exposed_ = CameraSet{};
   set_.delivered = CameraSet{};
   for (std::size_t i = 0; i < sources_.size(); ++i) {
+    const Source& source = sources_[i];
     hal::Frame& frame = set_.frames[i];
     frame.image = loaded_image(i);
-    frame.mid_exposure = now;
+    frame.mid_exposure = times_ && !shown_again_ ? source.times.mid_exposure : now;
+    arrivals_[i] = frame.mid_exposure + (source.times.arrival - source.times.mid_exposure);
     ++frame.sequence;
-    if (sources_[i].loaded) exposed_.insert(i);
+    if (source.loaded) exposed_.insert(i);
   }
 }
 
-const hal::FrameSet& RecordedFrameGrabber::do_await(CameraSet expected, Time /*deadline*/) {
+const hal::FrameSet& RecordedFrameGrabber::do_await(CameraSet expected, Time deadline) {
   set_.delivered = CameraSet(static_cast<std::uint16_t>(exposed_.bits() & expected.bits()));
+  if (times_ && wait_until_) wait_until_(await_times(expected, deadline));
   exposed_ = CameraSet{};
   return set_;
+}
+
+// Until when an await took; frames that came later are taken out of the set.
+Time RecordedFrameGrabber::await_times(CameraSet expected, Time deadline) {
+  Time last{};
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    if (!expected.contains(i)) continue;
+    const bool came = set_.delivered.contains(i) && arrivals_[i] <= deadline;
+    if (!came) set_.delivered.erase(i);
+    last = std::max(last, came ? arrivals_[i] : deadline);
+  }
+  return last;
 }
 
 }  // namespace dottrack::drivers
