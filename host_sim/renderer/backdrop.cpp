@@ -73,7 +73,7 @@ class Painter {
   double share_in_sight(const Look& from, std::size_t lamp) const {
     const Eigen::Vector3d p = off_surface(from);
     return host_sim::share_in_sight(
-        lamps_[lamp], [&](const auto& points) { return hall_.scene->blocked(p, points); });
+        lamps_[lamp], true, [&](const auto& points) { return hall_.scene->blocked(p, points); });
   }
 
   void paint(const Patch& patch, int x, int y, ShareLattice& shares) {
@@ -88,7 +88,8 @@ class Painter {
     }
     unshadowed(finish, patch.look.point, sight.origin, lamps_, radiance_);
     const double faint = faint_radiance(radiance_);
-    const auto cell = shares.cell(x, y, patch.look);
+    const auto cell = shares.cell(x, y);
+    const bool even = shares.same_face_around(cell, patch.look);
     const auto find = [&](std::size_t lamp) {
       return [this, lamp](const Look& node, int) { return share_in_sight(node, lamp); };
     };
@@ -96,7 +97,8 @@ class Painter {
       double share = 1.0;
       if (radiance_[i] > faint) {
         const auto between =
-            cell ? shares.share(*cell, i, kEvenRadiance / radiance_[i], find(i)) : std::nullopt;
+            even ? shares.between(cell, shares.at(cell, i, find(i)), kEvenRadiance / radiance_[i])
+                 : std::nullopt;
         share = between ? *between : share_in_sight(patch.look, i);
       }
       picture_.direct[i].at(x, y) += static_cast<float>(patch.share * share * radiance_[i]);
@@ -112,6 +114,15 @@ class Painter {
 };
 
 }  // namespace
+
+Look still_look(const Backdrop& backdrop, const RayLattice& rays, int x, int y) {
+  const StillPoint& still = backdrop.points.at(x, y);
+  if (still.thing == kNothing) return {};
+  const Sight sight = rays.inside(x, y, 0.5, 0.5);
+  const auto distance = static_cast<double>(still.distance);
+  return {still.thing, distance, sight.origin + distance * sight.direction,
+          still.normal.cast<double>()};
+}
 
 Backdrop paint_backdrop(const Actor& hall, std::span<const LampLight> lamps,
                         const SimCamera& camera, const RayLattice& rays) {

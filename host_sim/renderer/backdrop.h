@@ -39,6 +39,9 @@ struct Backdrop {
   ImageBuffer<StillPoint> points;
 };
 
+// What stands still at the middle of a pixel, by its largest face.
+Look still_look(const Backdrop& backdrop, const RayLattice& rays, int x, int y);
+
 Backdrop paint_backdrop(const Actor& hall, std::span<const LampLight> lamps,
                         const SimCamera& camera, const RayLattice& rays);
 

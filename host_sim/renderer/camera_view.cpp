@@ -59,7 +59,10 @@ struct CameraView::Memory {
         still(camera.width_px(), camera.height_px()),
         still_blurred(still),
         light(still),
-        blurred(still) {}
+        blurred(still),
+        still_shares(whole(still), stage.lamps.size(), [this](int x, int y) {
+          return still_look(stage.backdrop, stage.rays, x, y);
+        }) {}
 
   void set_levels(Levels wanted);
   void paint(std::span<const Actor> bodies, double weight);
@@ -73,6 +76,7 @@ struct CameraView::Memory {
   FloatImage still_blurred;
   FloatImage light;  // with bodies; equals `still` in tiles that none has touched
   FloatImage blurred;
+  ShareLattice still_shares;
   FloatImage tile_light{TileIndex::kTile_px, TileIndex::kTile_px};
   std::vector<bool> touched;  // by tile
 };
@@ -106,7 +110,8 @@ void CameraView::Memory::set_levels(Levels wanted) {
 
 // Adds the bodies at one instant, which makes up `weight` of the exposure.
 void CameraView::Memory::paint(std::span<const Actor> bodies, double weight) {
-  LivePainter painter(stage, *levels, still, bodies);
+  if (bodies.empty()) return;
+  LivePainter painter(stage, *levels, still, bodies, still_shares);
   const auto share = static_cast<float>(weight);
   const auto tiles = stage.tiles.tiles();
   for (std::size_t i = 0; i < tiles.size(); ++i) {

@@ -28,14 +28,13 @@ double from_lamp(const LampLight& lamp, const Eigen::Vector3d& p, const Eigen::V
 double glint(const LampLight& lamp, const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
              const Eigen::Vector3d& to_eye);
 
-// The share of the lamp in sight, by 4 of its points where they agree and by 16 in a half shadow.
-// hidden(four points): bit i is set where point i is hidden.
+// The share of the lamp in sight, by 4 of its points where they agree or where `finely` is not
+// asked for, else by 16. hidden(four points): bit i is set where point i is hidden.
 template <class Hidden>
-double share_in_sight(const LampLight& lamp, const Hidden& hidden) {
+double share_in_sight(const LampLight& lamp, bool finely, const Hidden& hidden) {
   const unsigned first = hidden(lamp.points[0]);
-  if (first == 0U) return 1.0;
-  if (first == 0xFU) return 0.0;
   int count = std::popcount(first);
+  if (!finely || count == 0 || count == 4) return 1.0 - count / 4.0;
   for (std::size_t four = 1; four < 4; ++four) count += std::popcount(hidden(lamp.points[four]));
   return 1.0 - count / 16.0;
 }

@@ -1,6 +1,7 @@
 #include "host_sim/renderer/live_painter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "host_sim/renderer/thresholds.h"
@@ -14,6 +15,7 @@ using Points = std::array<Vector3d, 4>;
 
 constexpr unsigned kEdgeLooks = 8;
 constexpr double kSameDistance = 1e-5;   // relative: what stands in a hit's own place
+constexpr double kStrong = 6.0 / 255.0;  // lamps whose shadows must not be blocky
 constexpr double kUnseen = 0.3 / 255.0;  // shadows that take away less are left out
 
 std::size_t index_of(int thing) {
@@ -30,13 +32,15 @@ unsigned hidden_by(const Actor& body, int y, const Vector3d& from, const Points&
 }  // namespace
 
 LivePainter::LivePainter(const Stage& stage, const Levels& levels, const FloatImage& still,
-                         std::span<const Actor> bodies)
+                         std::span<const Actor> bodies, ShareLattice& still_shares)
     : stage_(stage),
       levels_(levels),
       still_(still),
       bodies_(bodies),
+      still_shares_(still_shares),
       marks_(bodies, stage.camera, stage.rays),
-      shading_still_(stage.lamps.size()) {
+      face_shares_(stage.lamps.size()) {
+  still_shares_.forget();
   for (const Actor& shaded : bodies) {
     std::vector<Bodies>& by_lamp = shading_bodies_.emplace_back(stage.lamps.size());
     for (std::size_t i = 0; i < stage.lamps.size(); ++i) {
@@ -54,15 +58,15 @@ void LivePainter::find_bodies(const Tile& tile) {
   for (const Actor& body : bodies_) {
     if (may_be_seen(body, tile)) seen_.push_back(&body);
   }
-  shaded_ = false;
+  shaded_lamps_.clear();
+  const int middle_row = (tile.box.y0 + tile.box.y1) / 2;
   for (std::size_t i = 0; i < stage_.lamps.size(); ++i) {
-    shading_still_[i].clear();
-    const int middle_row = (tile.box.y0 + tile.box.y1) / 2;
     if (static_cast<double>(tile.brightest[i]) * levels_.at(middle_row, i) < kUnseen) continue;
-    for (const Actor& body : bodies_) {
-      if (may_shade(body, tile, stage_.lamps[i])) shading_still_[i].push_back(&body);
+    const LampLight& lamp = stage_.lamps[i];
+    if (std::any_of(bodies_.begin(), bodies_.end(),
+                    [&](const Actor& body) { return may_shade(body, tile, lamp); })) {
+      shaded_lamps_.push_back(i);
     }
-    shaded_ = shaded_ || !shading_still_[i].empty();
   }
 }
 
@@ -72,12 +76,10 @@ bool LivePainter::paint(const Tile& tile, FloatImage& light) {
     paint_seen(tile, light);
     return true;
   }
-  if (!shaded_) return false;
-  ShareLattice shares(tile.box, stage_.lamps.size(),
-                      [&](int x, int y) { return still_look(x, y); });
+  if (shaded_lamps_.empty()) return false;
   for (int y = tile.box.y0; y < tile.box.y1; ++y) {
     for (int x = tile.box.x0; x < tile.box.x1; ++x) {
-      light.at(x - tile.box.x0, y - tile.box.y0) = static_cast<float>(still_light(x, y, shares));
+      light.at(x - tile.box.x0, y - tile.box.y0) = static_cast<float>(still_light(x, y));
     }
   }
   return true;
@@ -93,8 +95,7 @@ void LivePainter::paint_seen(const Tile& tile, FloatImage& light) {
   const TileSampler sampler(stage_.rays, tile.box, marks_, kEdgeLooks, cast, on_mark);
   ShareLattice on_bodies(tile.box, stage_.lamps.size(),
                          [&](int x, int y) -> const Look& { return sampler.centre(x, y); });
-  ShareLattice on_still(tile.box, stage_.lamps.size(),
-                        [&](int x, int y) { return still_look(x, y); });
+  face_shares_.forget();
   Patches patches;
   for (int y = tile.box.y0; y < tile.box.y1; ++y) {
     for (int x = tile.box.x0; x < tile.box.x1; ++x) {
@@ -102,7 +103,7 @@ void LivePainter::paint_seen(const Tile& tile, FloatImage& light) {
       if (stage_.rays.seen(x, y)) {
         sampler.sample(x, y, patches, [](const Look&) {});
         for (const Patch& patch : patches) {
-          sum += patch.share * (patch.look.thing == kNothing ? still_light(x, y, on_still)
+          sum += patch.share * (patch.look.thing == kNothing ? still_light(x, y)
                                                              : radiance(patch, x, y, on_bodies));
         }
       }
@@ -153,26 +154,34 @@ double LivePainter::radiance(const Patch& patch, int x, int y, ShareLattice& sha
     sum += levels_.at(y, static_cast<std::size_t>(finish.lamp)) * finish.emission;
   }
   const double faint = faint_radiance(radiance_);
-  const auto cell = shares.cell(x, y, patch.look);
   for (std::size_t i = 0; i < radiance_.size(); ++i) {
-    double share = 1.0;
-    if (radiance_[i] > faint) {
-      const auto between = cell ? shares.share(*cell, i, kEvenRadiance / radiance_[i],
-                                               [&](const Look& node, int row) {
-                                                 return share_for_body(node, i, row);
-                                               })
-                                : std::nullopt;
-      share = between ? *between : share_for_body(patch.look, i, y);
-    }
-    sum += share * radiance_[i];
+    const bool shadows = radiance_[i] > faint;
+    sum += radiance_[i] * (shadows ? share_of_patch(patch, i, x, y, shares) : 1.0);
   }
   return sum;
 }
 
-double LivePainter::share_for_body(const Look& from, std::size_t lamp, int y) const {
+double LivePainter::share_of_patch(const Patch& patch, std::size_t lamp, int x, int y,
+                                   ShareLattice& shares) {
+  const bool strong = radiance_[lamp] > kStrong;
+  const auto cell = shares.cell(x, y);
+  if (shares.same_face_around(cell, patch.look)) {
+    const auto at = shares.at(cell, lamp, [&](const Look& node, int row) {
+      return share_for_body(node, lamp, row, strong);
+    });
+    const auto between = shares.between(cell, at, kEvenRadiance / radiance_[lamp]);
+    if (between) return *between;
+  }
+  if (strong) return share_for_body(patch.look, lamp, y, true);
+  double& share = face_shares_.at(x, y, patch.look, lamp);
+  if (std::isnan(share)) share = share_for_body(patch.look, lamp, y, false);
+  return share;
+}
+
+double LivePainter::share_for_body(const Look& from, std::size_t lamp, int y, bool finely) const {
   const Vector3d p = off_surface(from);
   const Bodies& shading = shading_bodies_[index_of(from.thing)][lamp];
-  return share_in_sight(stage_.lamps[lamp], [&](const Points& points) {
+  return share_in_sight(stage_.lamps[lamp], finely, [&](const Points& points) {
     unsigned hidden = 0;
     for (const Actor* body : shading) {
       if (hidden != 0xFU) hidden |= hidden_by(*body, y, p, points);
@@ -181,42 +190,48 @@ double LivePainter::share_for_body(const Look& from, std::size_t lamp, int y) co
   });
 }
 
-Look LivePainter::still_look(int x, int y) const {
-  const StillPoint& still = stage_.backdrop.points.at(x, y);
-  if (still.thing == kNothing) return {};
-  const Sight sight = stage_.rays.inside(x, y, 0.5, 0.5);
-  const auto distance = static_cast<double>(still.distance);
-  return {still.thing, distance, sight.origin + distance * sight.direction,
-          still.normal.cast<double>()};
-}
-
 // The still picture less what the bodies keep from it.
-double LivePainter::still_light(int x, int y, ShareLattice& shares) {
+double LivePainter::still_light(int x, int y) {
   auto light = static_cast<double>(still_.at(x, y));
-  if (!shaded_) return light;
-  const Look here = still_look(x, y);
-  if (here.thing == kNothing) return light;
-  const auto cell = shares.cell(x, y, here);
-  for (std::size_t i = 0; i < stage_.lamps.size(); ++i) {
-    if (shading_still_[i].empty()) continue;
+  if (shaded_lamps_.empty() || stage_.backdrop.points.at(x, y).thing == kNothing) return light;
+  const Look here = still_look(stage_.backdrop, stage_.rays, x, y);
+  for (const std::size_t i : shaded_lamps_) {
     const double direct =
         levels_.at(y, i) * static_cast<double>(stage_.backdrop.direct[i].at(x, y));
-    if (direct < kUnseen) continue;
-    const auto between =
-        cell
-            ? shares.share(*cell, i, kEvenRadiance / direct,
-                           [&](const Look& node, int row) { return share_for_still(node, i, row); })
-            : std::nullopt;
-    light -= direct * (1.0 - (between ? *between : share_for_still(here, i, y)));
+    if (direct >= kUnseen) light -= direct * (1.0 - share_of_still(here, i, direct, x, y));
   }
   return light;
 }
 
-double LivePainter::share_for_still(const Look& from, std::size_t lamp, int y) const {
+// Weak lamps from every second node of the lattice, where these agree.
+double LivePainter::share_of_still(const Look& here, std::size_t lamp, double direct, int x,
+                                   int y) {
+  const bool strong = direct > kStrong;
+  for (const std::size_t stride : {std::size_t{2}, std::size_t{1}}) {
+    if (strong && stride == 2) continue;
+    const auto cell = still_shares_.cell(x, y, stride);
+    const auto at = still_shares_.at(cell, lamp, [&](const Look& node, int row) {
+      return node.thing == kNothing ? 1.0 : share_for_still(node, lamp, row, strong);
+    });
+    if (std::all_of(at.begin(), at.end(), [](double share) { return share == 1.0; })) return 1.0;
+    if (!still_shares_.same_face_around(cell, here)) continue;
+    if (const auto between = still_shares_.between(cell, at, kEvenRadiance / direct)) {
+      return *between;
+    }
+  }
+  return share_for_still(here, lamp, y, strong);
+}
+
+double LivePainter::share_for_still(const Look& from, std::size_t lamp, int y, bool finely) const {
   const Vector3d p = off_surface(from);
-  return share_in_sight(stage_.lamps[lamp], [&](const Points& points) {
+  Bodies near;
+  for (const Actor& body : bodies_) {
+    if (may_hide(body.reach, {p, 0.0}, stage_.lamps[lamp].reach)) near.push_back(&body);
+  }
+  if (near.empty()) return 1.0;
+  return share_in_sight(stage_.lamps[lamp], finely, [&](const Points& points) {
     unsigned hidden = 0;
-    for (const Actor* body : shading_still_[lamp]) hidden |= hidden_by(*body, y, p, points);
+    for (const Actor* body : near) hidden |= hidden_by(*body, y, p, points);
     return hidden;
   });
 }

@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 
+#include "host_sim/renderer/face_shares.h"
 #include "host_sim/renderer/image_buffer.h"
 #include "host_sim/renderer/mark_covers.h"
 #include "host_sim/renderer/shading.h"
@@ -20,8 +20,9 @@ namespace dottrack::host_sim {
 class LivePainter {
  public:
   // `still`: the picture without bodies, at these levels. All of them outlive this.
+  // `still_shares`: a lattice over all of the still picture, which is used up.
   LivePainter(const Stage& stage, const Levels& levels, const FloatImage& still,
-              std::span<const Actor> bodies);
+              std::span<const Actor> bodies, ShareLattice& still_shares);
 
   // The light of a tile's pixels in `light`, of the tile's size or larger; false, and nothing
   // written, where no body or shadow comes near.
@@ -31,32 +32,28 @@ class LivePainter {
   using Points = std::array<Eigen::Vector3d, 4>;
   using Bodies = std::vector<const Actor*>;
 
-  // What may keep which lamps from the receivers at hand.
-  struct Occluders {
-    std::vector<Bodies> by_lamp;
-    bool any = false;
-  };
-
   void find_bodies(const Tile& tile);
   void paint_seen(const Tile& tile, FloatImage& light);
   Look look(const Sight& sight, int x, int y) const;
   bool hidden_by_hall(const Sight& sight, double distance, int x, int y) const;
   double radiance(const Patch& patch, int x, int y, ShareLattice& shares);
-  double share_for_body(const Look& from, std::size_t lamp, int y) const;
-  Look still_look(int x, int y) const;
-  double still_light(int x, int y, ShareLattice& shares);
-  double share_for_still(const Look& from, std::size_t lamp, int y) const;
+  double share_of_patch(const Patch& patch, std::size_t lamp, int x, int y, ShareLattice& shares);
+  double share_for_body(const Look& from, std::size_t lamp, int y, bool finely) const;
+  double still_light(int x, int y);
+  double share_of_still(const Look& here, std::size_t lamp, double direct, int x, int y);
+  double share_for_still(const Look& from, std::size_t lamp, int y, bool finely) const;
 
   const Stage& stage_;
   const Levels& levels_;
   const FloatImage& still_;
   std::span<const Actor> bodies_;
+  ShareLattice& still_shares_;
   MarkCovers marks_;
   std::vector<std::vector<Bodies>> shading_bodies_;  // by body that is shaded, then lamp
   // Of the tile at hand.
   Bodies seen_;
-  std::vector<Bodies> shading_still_;  // by lamp
-  bool shaded_ = false;
+  std::vector<std::size_t> shaded_lamps_;  // those that a body may keep from what stands still
+  FaceShares face_shares_;
   std::vector<double> radiance_;  // of one patch, by lamp
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -22,14 +23,15 @@ class ShareLattice {
     double u = 0.0;
     double v = 0.0;
   };
+  using Shares = std::array<double, 4>;  // at the nodes of a cell
 
-  // look(x, y): what the middle of a pixel of the tile shows.
+  // look(x, y): what the middle of a pixel of the box shows.
   template <class LookAt>
-  ShareLattice(const PixelBox& tile, std::size_t lamps, const LookAt& look)
-      : tile_(tile),
+  ShareLattice(const PixelBox& box, std::size_t lamps, const LookAt& look)
+      : box_(box),
         lamps_(lamps),
-        columns_(nodes_along(tile.x1 - tile.x0)),
-        rows_(nodes_along(tile.y1 - tile.y0)),
+        columns_(nodes_along(box.x1 - box.x0)),
+        rows_(nodes_along(box.y1 - box.y0)),
         shares_(columns_ * rows_ * lamps, std::numeric_limits<double>::quiet_NaN()) {
     nodes_.reserve(columns_ * rows_);
     for (std::size_t j = 0; j < rows_; ++j) {
@@ -37,33 +39,49 @@ class ShareLattice {
     }
   }
 
-  // Nothing where a node does not show the same face.
-  std::optional<Cell> cell(int x, int y, const Look& face) const {
-    const std::size_t i = std::min(index(x - tile_.x0), columns_ - 1);
-    const std::size_t j = std::min(index(y - tile_.y0), rows_ - 1);
-    const std::size_t right = std::min(i + 1, columns_ - 1);
-    const std::size_t below = std::min(j + 1, rows_ - 1);
-    const Cell cell{
+  // stride: of every how many nodes, 1 or 2.
+  Cell cell(int x, int y, std::size_t stride = 1) const {
+    const std::size_t i = index(x - box_.x0) / stride * stride;
+    const std::size_t j = index(y - box_.y0) / stride * stride;
+    const std::size_t right = std::min(i + stride, columns_ - 1);
+    const std::size_t below = std::min(j + stride, rows_ - 1);
+    return {
         {j * columns_ + i, j * columns_ + right, below * columns_ + i, below * columns_ + right},
         fraction(x, node_x(i), node_x(right)),
         fraction(y, node_y(j), node_y(below))};
-    for (const std::size_t node : cell.nodes) {
-      if (!same_face(nodes_[node], face)) return std::nullopt;
-    }
-    return cell;
   }
 
-  // The share of a lamp that the pixel sees, between those of the nodes; nothing where they differ
-  // by more than the tolerance. find(look, row): the share at a node.
+  // Whether all nodes show what the pixel shows.
+  bool same_face_around(const Cell& cell, const Look& face) const {
+    return std::all_of(cell.nodes.begin(), cell.nodes.end(),
+                       [&](std::size_t node) { return same_face(nodes_[node], face); });
+  }
+
+  // What the nodes see of a lamp. find(look, row): the share at a node.
   template <class Find>
-  std::optional<double> share(const Cell& cell, std::size_t lamp, double tolerance,
-                              const Find& find) {
-    std::array<double, 4> at{};
-    for (std::size_t i = 0; i < 4; ++i) {
+  Shares at(const Cell& cell, std::size_t lamp, const Find& find) {
+    Shares at{};
+    for (std::size_t i = 0; i < at.size(); ++i) {
       double& known = shares_[cell.nodes[i] * lamps_ + lamp];
-      if (known != known) known = find(nodes_[cell.nodes[i]], node_y(cell.nodes[i] / columns_));
+      if (std::isnan(known)) {
+        known = find(nodes_[cell.nodes[i]], node_y(cell.nodes[i] / columns_));
+        known_.push_back(&known - shares_.data());
+      }
       at[i] = known;
     }
+    return at;
+  }
+
+  // Nobody has asked yet.
+  void forget() {
+    for (const std::ptrdiff_t i : known_) {
+      shares_[static_cast<std::size_t>(i)] = std::numeric_limits<double>::quiet_NaN();
+    }
+    known_.clear();
+  }
+
+  // What the pixel sees of it; nothing where the nodes differ by more than the tolerance.
+  static std::optional<double> between(const Cell& cell, const Shares& at, double tolerance) {
     const auto [low, high] = std::minmax_element(at.begin(), at.end());
     if (*high - *low > tolerance) return std::nullopt;
     return (1.0 - cell.v) * ((1.0 - cell.u) * at[0] + cell.u * at[1]) +
@@ -79,18 +97,19 @@ class ShareLattice {
     return to > from ? static_cast<double>(at - from) / (to - from) : 0.0;
   }
   int node_x(std::size_t i) const {
-    return std::min(tile_.x0 + static_cast<int>(i) * kStep_px, tile_.x1 - 1);
+    return std::min(box_.x0 + static_cast<int>(i) * kStep_px, box_.x1 - 1);
   }
   int node_y(std::size_t j) const {
-    return std::min(tile_.y0 + static_cast<int>(j) * kStep_px, tile_.y1 - 1);
+    return std::min(box_.y0 + static_cast<int>(j) * kStep_px, box_.y1 - 1);
   }
 
-  PixelBox tile_;
+  PixelBox box_;
   std::size_t lamps_;
   std::size_t columns_;
   std::size_t rows_;
   std::vector<Look> nodes_;
   std::vector<double> shares_;  // by node, then lamp; NaN until somebody asks
+  std::vector<std::ptrdiff_t> known_;
 };
 
 }  // namespace dottrack::host_sim
