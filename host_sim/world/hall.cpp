@@ -11,14 +11,16 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kAttempts = 80;  // to find room for one thing
+constexpr int kAttempts = 200;  // to find room for one thing
 constexpr double kLander_m = 1.35;
 
 void add_lander(Model& hall, const HallSite& site, GroundPlan& plan) {
   RandomStream random(site.options.seed, 0x1A4D);
   const auto place = plan.find_on_sand(random, kLander_m, kVehicleReach_m + kLander_m);
-  if (!place) return;
-  const Pose pose = lying_on(site.terrain, *place, random.uniform(0.0, 2.0 * kPi));
+  // Where the drive leaves it no room on the sand it stands in the bay.
+  const Vector2d in_bay(site.half_length_m() + 6.5, 0.0);
+  if (!place) plan.take(in_bay, kLander_m);
+  const Pose pose = lying_on(site.terrain, place.value_or(in_bay), random.uniform(0.0, 2.0 * kPi));
   append(hall, make_lander(random.word()), pose);
 }
 

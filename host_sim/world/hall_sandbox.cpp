@@ -42,7 +42,7 @@ void add_ramp(Model& hall, const Terrain& terrain) {
   Pose lying;
   lying.rotation << 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0;
   TriangleMesh mesh = transformed(prism(side, -0.5 * ramp.width_m, 0.5 * ramp.width_m), lying);
-  add(hall, transformed(std::move(mesh), pose), {0.33, Pattern::mottled, 0.05, 17});
+  add(hall, transformed(std::move(mesh), pose), {0.33, Pattern::planks, 0.05, 17});
 }
 
 void add_rocks(Model& hall, const HallSite& site, GroundPlan& plan) {
