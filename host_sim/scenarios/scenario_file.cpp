@@ -91,10 +91,10 @@ class ScenarioReader {
     scene_.cameras = read_cameras(complaint_, root, grounds, scene_.seed);
     if (complaint_.empty()) read_hardware(complaint_, root, scene_);
     scene_.appearance = read_appearance(complaint_, root.table("dots"));
-    const Terrain terrain(grounds.length_m, grounds.width_m, scene_.seed, drive.ramp);
-    populate(root, grounds, terrain, vehicle, drive);
+    scene_.terrain = Terrain(grounds.length_m, grounds.width_m, scene_.seed, drive.ramp);
+    populate(root, grounds, vehicle, drive);
     if (complaint_.empty()) check_view(drive);
-    if (complaint_.empty()) furnish(grounds, terrain, drive);
+    if (complaint_.empty()) furnish(grounds, drive);
     return std::move(scene_);
   }
 
@@ -109,15 +109,16 @@ class ScenarioReader {
     return {};
   }
 
-  void populate(TableReader& root, const Grounds& grounds, const Terrain& terrain,
-                const VehicleChoice& vehicle, const Drive& drive) {
+  void populate(TableReader& root, const Grounds& grounds, const VehicleChoice& vehicle,
+                const Drive& drive) {
     Motion motion;
     if (drive.motion && complaint_.empty()) {
-      motion = drive.motion(terrain);
+      motion = drive.motion(scene_.terrain);
       scene_.vehicle = scene_.world.bodies.size();
       scene_.world.bodies.push_back(make_vehicle(vehicle, motion));
     }
-    read_bodies(complaint_, root, grounds, terrain, motion, scene_.seed, scene_.world.bodies);
+    read_bodies(complaint_, root, grounds, scene_.terrain, motion, scene_.seed,
+                scene_.world.bodies);
   }
 
   void check_view(const Drive& drive) {
@@ -126,11 +127,11 @@ class ScenarioReader {
                    "a motion that comes into a camera's picture");
   }
 
-  void furnish(Grounds& grounds, const Terrain& terrain, const Drive& drive) {
+  void furnish(Grounds& grounds, const Drive& drive) {
     scene_.world.lamps =
         hall_lamps(grounds.length_m, grounds.width_m, grounds.hall.height_m, scene_.seed);
     grounds.hall.distance_to_drive_m = distance_to(drive.way);
-    scene_.world.hall = make_hall(grounds.hall, terrain, scene_.world.lamps);
+    scene_.world.hall = make_hall(grounds.hall, scene_.terrain, scene_.world.lamps);
   }
 
   Complaint& complaint_;

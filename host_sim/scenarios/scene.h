@@ -11,6 +11,7 @@
 #include "host_sim/renderer/sensor.h"
 #include "host_sim/renderer/sim_camera.h"
 #include "host_sim/world/target_layout.h"
+#include "host_sim/world/terrain.h"
 #include "host_sim/world/world.h"
 
 namespace dottrack::host_sim {
@@ -47,8 +48,9 @@ struct Scene {
   std::uint64_t seed = 1;
   std::uint64_t ticks = 100;
   double frame_rate_hz = 10.0;
-  double length_m = 22.0;  // of the sandbox, along x; its middle is the world's origin
-  double width_m = 9.0;    // along y
+  double length_m = 22.0;         // of the sandbox, along x; its middle is the world's origin
+  double width_m = 9.0;           // along y
+  Terrain terrain{22.0, 9.0, 1};  // that the world's hall is built on
   World world;
   std::vector<SceneCamera> cameras;
   // The body that carries the target; absent in a scene with nothing but look-alikes.

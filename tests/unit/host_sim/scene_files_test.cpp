@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
-#include <sstream>
 
 #include "app/config/rig_file.h"
-#include "host_sim/scenarios/scenes.h"
+#include "host_sim/scenarios/scenario_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace dottrack::host_sim {
@@ -17,79 +17,65 @@ std::string contents(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-Scene small_scene() {
-  return make_random_scene({.seed = 21, .dots = 7, .cameras = 3, .width_px = 64, .height_px = 48});
+Scene scene_with(const std::string& lens) {
+  const auto scene = parse_scenario(
+      "[scenario]\nname = \"small\"\nticks = 3\nframe_rate_hz = 12.5\n[motion]\nkind = \"stand\"\n"
+      "at = [0.0, 0.0]\n[cameras]\ncount = 6\nlens = \"" +
+          lens + "\"\n[dots]\nmin_contrast_dn = 31\ndistance_m = [1.5, 17.0]\n",
+      "small.toml");
+  if (!scene) throw std::runtime_error(scene.error().message);
+  return *scene;
 }
 
 TEST(SceneFilesTest, TheRigIsOneTheTrackerLoads) {
-  const test::TemporaryFolder folder;
-  const Scene scene = make_demo_scene(1);
-  ASSERT_TRUE(write_rig(scene, folder.path() / "rig"));
-  const auto rig = config::load_rig(folder.path() / "rig/rig.toml");
-  ASSERT_TRUE(rig) << rig.error().message;
-  EXPECT_EQ(rig->frame_rate_hz, scene.frame_rate_hz);
-  ASSERT_EQ(rig->cameras.size(), scene.cameras.size());
-  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-    EXPECT_EQ(rig->cameras[i].name, scene.cameras[i].name);
-    EXPECT_EQ(rig->rig.cameras[i].width_px, 640);
-    EXPECT_EQ(rig->rig.cameras[i].min_contrast_dn, scene.appearance.min_contrast_dn);
-  }
-  ASSERT_EQ(rig->rig.target.dots.size(), scene.target.size());
-  for (std::size_t i = 0; i < scene.target.size(); ++i) {
-    EXPECT_EQ(rig->rig.target.dots[i].position_m, scene.target[i].centre_m);
-    EXPECT_EQ(rig->rig.target.dots[i].diameter_m, scene.target[i].diameter_m);
+  for (const char* lens : {"pinhole", "radial", "fisheye"}) {
+    const test::TemporaryFolder folder;
+    const Scene scene = scene_with(lens);
+    ASSERT_TRUE(write_rig(scene, folder.path() / "rig"));
+    const auto rig = config::load_rig(folder.path() / "rig/rig.toml");
+    ASSERT_TRUE(rig) << rig.error().message;
+    EXPECT_EQ(rig->frame_rate_hz, 12.5);
+    ASSERT_EQ(rig->cameras.size(), 6U);
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+      EXPECT_EQ(rig->cameras[i].name, scene.cameras[i].name);
+      EXPECT_EQ(rig->rig.cameras[i].width_px, 640);
+      EXPECT_EQ(rig->rig.cameras[i].min_contrast_dn, 31);
+      EXPECT_EQ(rig->rig.cameras[i].distance_max_m, 17.0);
+    }
+    ASSERT_EQ(rig->rig.target.dots.size(), scene.target.size());
+    for (std::size_t i = 0; i < scene.target.size(); ++i) {
+      EXPECT_EQ(rig->rig.target.dots[i].position_m, scene.target[i].centre_m);
+      EXPECT_EQ(rig->rig.target.dots[i].diameter_m, scene.target[i].diameter_m);
+    }
   }
 }
 
-TEST(SceneFilesTest, FramesAreTheRenderedBytesAfterAPgmHeader) {
+TEST(SceneFilesTest, OtherModelsMayBeToldThanTheTruth) {
   const test::TemporaryFolder folder;
-  const Scene scene = small_scene();
-  ASSERT_TRUE(write_frames(scene, 4, folder.path()));
-  folder.write("cam1/notes.pgm", "not an image of a tick");
-  ASSERT_TRUE(write_frames(scene, 3, folder.path()));
-  std::vector<GreyImage> images;
-  SceneRenderer(scene).render(2, images);
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    const std::string file = contents(folder.path() / scene.cameras[i].name / "000002.pgm");
-    const std::string head = "P5\n64 48\n255\n";
-    ASSERT_EQ(file.size(), head.size() + 64U * 48U);
-    EXPECT_EQ(file.substr(0, head.size()), head);
-    const auto& pixels = images[i].pixels();
-    EXPECT_TRUE(
-        std::equal(pixels.begin(), pixels.end(), file.begin() + 13,
-                   [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); }));
+  const Scene scene = scene_with("radial");
+  std::vector<SimCamera> told;
+  for (const SceneCamera& camera : scene.cameras) {
+    told.emplace_back(camera.camera.centre_m() + Eigen::Vector3d(0.01, 0.0, 0.0),
+                      camera.camera.rotation(), camera.camera.lens(), 640, 480);
   }
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "cam1/000003.pgm"));
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "cam1/notes.pgm"));
+  ASSERT_TRUE(write_rig(scene, folder.path() / "true"));
+  ASSERT_TRUE(write_rig(scene, folder.path() / "told", told));
+  EXPECT_NE(contents(folder.path() / "true/cam1.cahvor"), "");
+  EXPECT_NE(contents(folder.path() / "true/cam1.cahvor"),
+            contents(folder.path() / "told/cam1.cahvor"));
 }
 
-TEST(SceneFilesTest, TheTruthIsThePoseOfEveryTick) {
+TEST(SceneFilesTest, APgmIsItsHeaderAndItsPixelsRowByRow) {
   const test::TemporaryFolder folder;
-  const Scene scene = small_scene();
-  ASSERT_TRUE(write_truth(scene, 50, folder.path() / "truth.tum"));
-  std::ifstream in(folder.path() / "truth.tum");
-  Eigen::Quaterniond last = Eigen::Quaterniond::Identity();
-  std::uint64_t tick = 0;
-  double t = 0.0;
-  Eigen::Vector3d p;
-  Eigen::Quaterniond q;
-  while (in >> t >> p.x() >> p.y() >> p.z() >> q.x() >> q.y() >> q.z() >> q.w()) {
-    const Pose pose = truth(scene, tick);
-    EXPECT_NEAR(t, static_cast<double>(tick) / 30.0, 1e-9);
-    EXPECT_LT((p - pose.position_m).norm(), 1e-11);
-    EXPECT_LT((q.toRotationMatrix() - pose.rotation).norm(), 1e-12);
-    if (tick == 0) last = q;
-    EXPECT_GT(q.dot(last), 0.9) << "the sign jumps at tick " << tick;
-    last = q;
-    ++tick;
-  }
-  EXPECT_EQ(tick, 50U);
+  const std::vector<std::uint8_t> pixels{1, 2, 3, 99, 4, 5, 6, 99};
+  ASSERT_TRUE(write_pgm(folder.path() / "a.pgm", {pixels.data(), 3, 2, 4}));
+  EXPECT_EQ(contents(folder.path() / "a.pgm"), "P5\n3 2\n255\n\1\2\3\4\5\6");
 }
 
 TEST(SceneFilesTest, SaysWhichFileItCannotWrite) {
   const test::TemporaryFolder folder;
   folder.write("taken", "a file where a folder should be");
-  const auto result = write_frames(small_scene(), 1, folder.path() / "taken");
+  const auto result = write_rig(scene_with("radial"), folder.path() / "taken");
   ASSERT_FALSE(result);
   EXPECT_NE(result.error().message.find("taken"), std::string::npos);
   EXPECT_EQ(result.error().message.find('\n'), std::string::npos);
