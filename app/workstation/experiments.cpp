@@ -10,12 +10,18 @@
 #include "host_sim/scenarios/scenario_file.h"
 #include "host_sim/scenarios/scene_renderer.h"
 #include "host_sim/survey/calibration.h"
+#include "host_sim/world/rover.h"
 
 namespace dottrack::workstation {
 namespace {
 
 namespace fs = std::filesystem;
 using host_sim::Scene;
+
+// Surveyed dots on the floor and the walls, of which each camera is fitted to the 60 or fewer that
+// it sees; their survey is good to a millimetre.
+constexpr std::size_t kCalibrationDots = 600;
+constexpr double kDotsUpTo_m = 2.5;
 
 constexpr std::array kBoth = {Models::perfect, Models::calibrated};
 
@@ -29,13 +35,20 @@ Result<Scene> load(const std::string& name) {
   return host_sim::load_scenario(*file, {});
 }
 
-std::vector<host_sim::SimCamera> told_cameras(const Scene& scene, Models models) {
+Result<std::vector<host_sim::SimCamera>> told_cameras(const Scene& scene, Models models) {
   std::vector<host_sim::SimCamera> cameras;
   for (const host_sim::SceneCamera& camera : scene.cameras) cameras.push_back(camera.camera);
   if (models == Models::perfect) return cameras;
   host_sim::CalibrationOptions options;
   options.seed = scene.seed;
-  return host_sim::calibrated(cameras, scene.surveyed_dots_m, options);
+  const auto dots = host_sim::calibration_dots(scene.length_m, scene.width_m, kDotsUpTo_m,
+                                               kCalibrationDots, scene.seed);
+  return host_sim::calibrated(cameras, dots, options);
+}
+
+void put_dots(Scene& scene, int dots) {
+  scene.target = host_sim::random_layout(dots, scene.seed);
+  scene.world.bodies[*scene.vehicle].model = host_sim::make_rover(scene.target);
 }
 
 class Runner {
@@ -50,9 +63,10 @@ class Runner {
     host_sim::SceneRenderer renderer(*scene, options_.threads);
     for (const Models models : kBoth) {
       const auto told = told_cameras(*scene, models);
+      if (!told) return tl::unexpected<Error>(told.error());
       SimOptions sim;
       sim.out = options_.out / fmt::format("{}_{}", name, name_of(models));
-      sim.models = told;
+      sim.models = *told;
       sim.go_on = [&](std::uint64_t done) {
         return go_on(
             fmt::format("{}, {} models: tick {} of {}", name, name_of(models), done, scene->ticks));
@@ -66,14 +80,14 @@ class Runner {
   }
 
   Result<void> acquisitions(std::vector<AcquisitionFigures>& figures) {
-    const Result<Scene> scene = load("drive");
+    Result<Scene> scene = load("drive");
     if (!scene) return tl::unexpected<Error>(scene.error());
     host_sim::SceneRenderer renderer(*scene, options_.threads);
     for (const int dots : {3, 4, 8}) {
+      put_dots(*scene, dots);
       TrialOptions trials;
       trials.out = options_.out / fmt::format("acquisitions_{}", dots);
       trials.count = options_.placements;
-      trials.dots = dots;
       trials.go_on = [&](std::uint64_t done) {
         return go_on(fmt::format("acquisition, {} dots: placement {} of {}", dots, done,
                                  options_.placements));

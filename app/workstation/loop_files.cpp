@@ -16,13 +16,12 @@ Result<void> make_folder(const fs::path& folder) {
   return fail(fmt::format("{}: cannot make this folder ({})", folder.string(), error.message()));
 }
 
-Result<LoopFiles> open_loop_files(const fs::path& out) {
+Result<LoopFiles> open_loop_files(const fs::path& out, std::unique_ptr<rtos::VirtualClock> clock) {
   if (const auto made = make_folder(out); !made) return tl::unexpected<Error>(made.error());
   Result<OutputFile> tum = OutputFile::create(out / "poses.tum");
   if (!tum) return tl::unexpected<Error>(tum.error());
   Result<OutputFile> csv = OutputFile::create(out / "poses.csv");
   if (!csv) return tl::unexpected<Error>(csv.error());
-  auto clock = std::make_unique<rtos::VirtualClock>();
   auto can = drivers::CandumpCanBus::open(out / "can.log", *clock);
   if (!can) return tl::unexpected<Error>(can.error());
   return LoopFiles{out, std::move(*tum), std::move(*csv), std::move(clock), std::move(*can)};

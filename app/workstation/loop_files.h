@@ -24,6 +24,7 @@ struct LoopFiles {
 Result<void> make_folder(const std::filesystem::path& folder);
 
 // poses.tum, poses.csv and can.log in `out`, which is made where it is absent.
-Result<LoopFiles> open_loop_files(const std::filesystem::path& out);
+Result<LoopFiles> open_loop_files(const std::filesystem::path& out,
+                                  std::unique_ptr<rtos::VirtualClock> clock);
 
 }  // namespace dottrack::workstation

@@ -8,7 +8,9 @@
 
 #include "app/workstation/camera_command.h"
 #include "app/workstation/exit_status.h"
+#include "app/workstation/experiments_command.h"
 #include "app/workstation/replay_command.h"
+#include "app/workstation/sim_command.h"
 
 namespace {
 
@@ -47,6 +49,8 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error, int argc,
 
 void add_commands(CLI::App& app, int& exit_status) {
   dottrack::workstation::add_replay_command(app, exit_status);
+  dottrack::workstation::add_sim_command(app, exit_status);
+  dottrack::workstation::add_experiments_command(app, exit_status);
   dottrack::workstation::add_camera_command(app, exit_status);
 }
 

@@ -30,9 +30,11 @@ std::vector<drivers::RecordedCamera> recorded_cameras(const config::RigConfig& c
   return cameras;
 }
 
-Result<std::unique_ptr<drivers::RecordedFrameGrabber>> open_frames(
-    const ReplayOptions& options, const config::RigConfig& config) {
-  auto grabber = drivers::RecordedFrameGrabber::open(options.frames, recorded_cameras(config));
+Result<std::unique_ptr<drivers::RecordedFrameGrabber>> open_frames(const ReplayOptions& options,
+                                                                   const config::RigConfig& config,
+                                                                   rtos::VirtualClock& clock) {
+  auto grabber = drivers::RecordedFrameGrabber::open(
+      options.frames, recorded_cameras(config), [&clock](Time until) { clock.jump_to(until); });
   if (!grabber) return grabber;
   for (const std::string& name : (*grabber)->silent_cameras()) {
     warn(fmt::format("{} holds no images; {} will not deliver", (options.frames / name).string(),
@@ -65,9 +67,10 @@ Result<RunSummary> replay(const ReplayOptions& options) {
   if (options.repeat < 1) return fail("--repeat is at least 1");
   const Result<config::RigConfig> config = config::load_rig(options.rig);
   if (!config) return tl::unexpected<Error>(config.error());
-  const auto grabber = open_frames(options, *config);
+  auto clock = std::make_unique<rtos::VirtualClock>();
+  const auto grabber = open_frames(options, *config, *clock);
   if (!grabber) return tl::unexpected<Error>(grabber.error());
-  Result<LoopFiles> files = open_loop_files(options.out);
+  Result<LoopFiles> files = open_loop_files(options.out, std::move(clock));
   if (!files) return tl::unexpected<Error>(files.error());
   return run(options, *config, **grabber, std::move(*files));
 }

@@ -72,7 +72,7 @@ class Simulation {
       : scene_(scene),
         options_(options),
         period_(period_of(config)),
-        iris_(scene.cameras.size(), scene.iris, *files.clock),
+        iris_(scene, *files.clock),
         grabber_(
             grabber_setup(scene),
             [&renderer](std::span<const host_sim::Exposure> exposures,
@@ -80,7 +80,7 @@ class Simulation {
               renderer.render(exposures, images);
             },
             iris_, *files.clock),
-        can_(scene.can, scene.seed, protocol::kDefaultBaseId, *files.can_log, *files.clock),
+        can_(scene.can, scene.seed, *files.clock, *files.can_log),
         truth_tum_(std::move(truth_tum)),
         truth_(truth_tum_, truth_of(scene)),
         loop_(config, std::move(files),
@@ -166,7 +166,7 @@ bool SimSummary::good(const Scene& scene) const {
 
 Result<SimSummary> simulate(const Scene& scene, host_sim::SceneRenderer& renderer,
                             const SimOptions& options) {
-  Result<LoopFiles> files = open_loop_files(options.out);
+  Result<LoopFiles> files = open_loop_files(options.out, std::make_unique<rtos::VirtualClock>());
   if (!files) return tl::unexpected<Error>(files.error());
   const fs::path rig = options.out / "rig";
   if (auto done = host_sim::write_rig(scene, rig, options.models); !done) {

@@ -16,6 +16,7 @@
 #include "host_sim/scenarios/body_scenes.h"
 #include "host_sim/scenarios/placements.h"
 #include "host_sim/scenarios/scene_files.h"
+#include "host_sim/scenarios/visibility.h"
 
 namespace dottrack::workstation {
 namespace {
@@ -24,15 +25,6 @@ using host_sim::GreyImage;
 using host_sim::Placement;
 using host_sim::Scene;
 using Watch = std::chrono::steady_clock;
-
-core::Target target_of(const core::Target& told, const host_sim::TargetLayout& layout) {
-  core::Target target = told;
-  target.dots.clear();
-  for (const host_sim::TargetDot& dot : layout) {
-    target.dots.push_back({dot.centre_m, dot.diameter_m, dot.normal});
-  }
-  return target;
-}
 
 std::array<core::CameraFrame, kMaxCameras> frames_of(const std::vector<GreyImage>& images) {
   std::array<core::CameraFrame, kMaxCameras> frames{};
@@ -45,16 +37,18 @@ std::array<core::CameraFrame, kMaxCameras> frames_of(const std::vector<GreyImage
 
 class Trials {
  public:
-  Trials(const Scene& scene, host_sim::SceneRenderer& renderer, const core::Rig& rig, int dots)
-      : scene_(scene), renderer_(renderer), rig_(rig), dots_(dots) {}
+  Trials(const Scene& scene, host_sim::SceneRenderer& renderer, const core::Rig& rig)
+      : scene_(scene), renderer_(renderer), rig_(rig) {}
 
   Trial run(std::uint64_t index) {
-    const Placement placement = host_sim::random_placement(scene_, dots_, index);
+    const Placement placement =
+        host_sim::random_placement(scene_, renderer_.hall().scene, scene_.seed, index);
     const host_sim::BodyScenes bodies(placement.bodies);
     renderer_.render(exposures(index), bodies.moving(), placement.light, images_);
     Trial trial = described(placement, index);
-    trial.dots_in_two_views =
-        host_sim::dots_in_two_views(scene_, renderer_.hall(), placement, bodies.moving());
+    const auto views = host_sim::views_of_dots(scene_.cameras, scene_.target, placement.vehicle,
+                                               renderer_.hall(), bodies.moving(), 0.0);
+    trial.dots_in_two_views = host_sim::dots_in_two_views(views);
     acquire(placement, trial);
     return trial;
   }
@@ -70,20 +64,18 @@ class Trials {
     return all;
   }
 
-  static Trial described(const Placement& placement, std::uint64_t index) {
+  Trial described(const Placement& placement, std::uint64_t index) const {
     Trial trial;
     trial.index = index;
-    trial.x_m = placement.pose.position_m.x();
-    trial.y_m = placement.pose.position_m.y();
-    trial.yaw_rad = std::atan2(placement.pose.rotation(1, 0), placement.pose.rotation(0, 0));
-    trial.dots = static_cast<int>(placement.target.size());
+    trial.x_m = placement.vehicle.position_m.x();
+    trial.y_m = placement.vehicle.position_m.y();
+    trial.yaw_rad = std::atan2(placement.vehicle.rotation(1, 0), placement.vehicle.rotation(0, 0));
+    trial.dots = static_cast<int>(scene_.target.size());
     return trial;
   }
 
   void acquire(const Placement& placement, Trial& trial) {
-    core::Rig rig = rig_;
-    rig.target = target_of(rig_.target, placement.target);
-    core::Tracker tracker(rig);
+    core::Tracker tracker(rig_);
     const auto frames = frames_of(images_);
     const auto start = Watch::now();
     const core::TickResult& result = tracker.step(frames);
@@ -91,7 +83,7 @@ class Trials {
     trial.reason = result.reason;
     if (!result.has_pose) return;
     const PoseError error =
-        error_of(result.pose, {placement.pose.position_m, placement.pose.orientation()});
+        error_of(result.pose, {placement.vehicle.position_m, placement.vehicle.orientation()});
     trial.position_mm = error.position_mm();
     trial.attitude_deg = error.attitude_deg();
     trial.outcome = error.wrong_lock() ? Outcome::wrong_lock : Outcome::right_lock;
@@ -100,7 +92,6 @@ class Trials {
   const Scene& scene_;
   host_sim::SceneRenderer& renderer_;
   const core::Rig& rig_;
-  int dots_;
   std::vector<GreyImage> images_;
 };
 
@@ -158,8 +149,7 @@ Result<TrialRun> run_trials(const Scene& scene, host_sim::SceneRenderer& rendere
     return tl::unexpected<Error>(done.error());
   const Result<config::RigConfig> config = config::load_rig(rig / "rig.toml");
   if (!config) return tl::unexpected<Error>(config.error());
-  const int dots = options.dots > 0 ? options.dots : static_cast<int>(scene.target.size());
-  Trials trials(scene, renderer, config->rig, dots);
+  Trials trials(scene, renderer, config->rig);
   TrialRun run;
   csv->write(kHeader);
   const auto start = Watch::now();

@@ -21,7 +21,6 @@ namespace dottrack::workstation {
 struct TrialOptions {
   std::filesystem::path out;
   std::uint64_t count = 0;
-  int dots = 0;  // on the target; 0: as many as the scene's has
   // Called after every placement with those done; false ends the run there.
   std::function<bool(std::uint64_t)> go_on;
 };
@@ -66,7 +65,7 @@ struct TrialRun {
 
 // Writes acquisitions.csv, a line a placement, into options.out. An error is wrong input, or a file
 // that cannot be written.
-// `renderer` is of this scene.
+// The scene has a vehicle; `renderer` is of this scene or one with the same hall and cameras.
 Result<TrialRun> run_trials(const host_sim::Scene& scene, host_sim::SceneRenderer& renderer,
                             const TrialOptions& options);
 

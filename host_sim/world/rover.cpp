@@ -154,7 +154,7 @@ void add_cables(Model& model) {
 void add_labels_and_bolts(Model& model) {
   const Material paper{0.82};
   const Material steel{0.62, Pattern::plain, 0.6};
-  add(model, box(on_deck({-0.715, 0.08}, 0.001), {0.03, 0.10, 0.002}), paper);
+  add(model, box(on_deck({-0.715, -0.28}, 0.001), {0.03, 0.10, 0.002}), paper);
   add(model, box(on_deck({0.06, 0.812}, 0.001), {0.08, 0.022, 0.002}), paper);
   add(model, box(on_deck({-0.50, -0.32}, 0.001), {0.07, 0.04, 0.002}), paper);
   const Outline& outline = deck_outline();
@@ -180,8 +180,11 @@ const std::vector<Vector2d>& deck_outline() {
 }
 
 const std::vector<Keepout>& deck_keepouts() {
-  static const std::vector<Keepout> keepouts = {
-      {{0.44, 0.10}, 0.15}, {{-0.46, -0.20}, 0.22}, {{-0.62, 0.26}, 0.10}};
+  static const std::vector<Keepout> keepouts = {{{0.44, 0.10}, 0.15},     // mast
+                                                {{-0.46, -0.20}, 0.22},   // high-gain antenna
+                                                {{-0.62, 0.26}, 0.10},    // low-gain antenna
+                                                {{-0.715, -0.28}, 0.15},  // labels
+                                                {{0.06, 0.812}, 0.14},   {{-0.50, -0.32}, 0.13}};
   return keepouts;
 }
 

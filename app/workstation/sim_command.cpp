@@ -1,0 +1,178 @@
+#include "app/workstation/sim_command.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/workstation/exit_status.h"
+#include "app/workstation/interrupt.h"
+#include "app/workstation/progress.h"
+#include "app/workstation/sim_run.h"
+#include "app/workstation/trials.h"
+#include "host_sim/scenarios/scenario_file.h"
+
+namespace dottrack::workstation {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SimCommand {
+  std::string scenario = "drive";
+  fs::path out;
+  fs::path record;
+  std::optional<std::uint64_t> seed;
+  std::optional<std::uint64_t> ticks;
+  std::uint64_t acquisitions = 0;
+  unsigned threads = 0;
+  bool pictures = true;
+};
+
+int complain(const std::string& message, int status) {
+  fmt::print(stderr, "dottrack: {}\n", message);
+  return status;
+}
+
+Result<host_sim::Scene> load(const SimCommand& command) {
+  const auto file = host_sim::find_scenario(command.scenario);
+  if (!file) return tl::unexpected<Error>(file.error());
+  return host_sim::load_scenario(*file, {command.seed, command.ticks});
+}
+
+void print_row(const std::string& what, const std::string& value) {
+  fmt::print("  {:<24} {}\n", what, value);
+}
+
+void print_lock(const RunSummary& loop) {
+  print_row("first lock",
+            loop.first_lock_tick < 0 ? "never" : fmt::format("tick {}", loop.first_lock_tick));
+  print_row("ticks with a pose", fmt::format("{} of {}", loop.tracking_ticks, loop.ticks));
+  print_row("locks after the first", std::to_string(loop.reacquisitions));
+}
+
+void print_errors(const Accuracy& a) {
+  print_row("position error",
+            fmt::format("{:.2f} mm RMS, {:.2f} mm max", a.position_rms_mm, a.position_max_mm));
+  print_row("attitude error",
+            fmt::format("{:.3f} deg RMS, {:.3f} deg max", a.attitude_rms_deg, a.attitude_max_deg));
+  print_row("normalised error", fmt::format("{:.1f} squared, mean (6 is true)", a.nees_mean));
+}
+
+void print_summary(const SimSummary& sim, const SimCommand& command) {
+  print_lock(sim.loop);
+  print_row("wrong-lock ticks", std::to_string(sim.accuracy.wrong_lock_ticks));
+  if (sim.accuracy.compared > 0) print_errors(sim.accuracy);
+  print_row("allocations in the loop", std::to_string(sim.loop.allocations_in_loop));
+  print_row("speed", fmt::format("{:.1f} ticks a second, rendering included", sim.ticks_per_s));
+  fmt::print("results: {}", command.out.string());
+  if (command.pictures) {
+    fmt::print("; pictures: {}; plots: {}", (command.out / "pictures").string(),
+               (command.out / "plots").string());
+  }
+  fmt::print("\n");
+  if (!command.record.empty()) {
+    fmt::print("frames: {} (dottrack replay {} --frames {} --out DIR)\n", command.record.string(),
+               (command.out / "rig" / "rig.toml").string(), command.record.string());
+  }
+}
+
+int run_scene(const host_sim::Scene& scene, const SimCommand& command) {
+  const Interrupt interrupt;
+  SimOptions options;
+  options.out = command.out;
+  options.record = command.record;
+  options.pictures = command.pictures;
+  host_sim::SceneRenderer renderer(scene, command.threads);
+  std::optional<Progress> progress;
+  progress.emplace(scene.name, scene.ticks, "tick");
+  options.go_on = [&](std::uint64_t done) {
+    progress->show(done);
+    return !Interrupt::wanted();
+  };
+  const auto sim = simulate(scene, renderer, options);
+  progress.reset();
+  if (!sim) return complain(sim.error().message, kWrongUse);
+  if (sim->rows.size() < sim->ticks_asked) {
+    fmt::print("stopped after {} of {} ticks\n", sim->rows.size(), sim->ticks_asked);
+  }
+  print_summary(*sim, command);
+  if (!sim->loop.output_fault.empty()) return complain(sim->loop.output_fault, kFailed);
+  return sim->good(scene) ? kDone : kFailed;
+}
+
+void print_trials(const TrialSummary& summary, const std::string& title) {
+  fmt::print("  {:<44} {:>8} {:>8} {:>8} {:>8}\n", title, summary.placements, summary.right,
+             summary.wrong, summary.none);
+  for (const auto& [reason, count] : summary.reasons) {
+    fmt::print("      no lock: {:<59} {:>8}\n", reason, count);
+  }
+}
+
+int run_placements(const host_sim::Scene& scene, const SimCommand& command) {
+  const Interrupt interrupt;
+  host_sim::SceneRenderer renderer(scene, command.threads);
+  std::optional<Progress> progress;
+  progress.emplace(scene.name, command.acquisitions, "acquisition");
+  TrialOptions options;
+  options.out = command.out;
+  options.count = command.acquisitions;
+  options.go_on = [&](std::uint64_t done) {
+    progress->show(done);
+    return !Interrupt::wanted();
+  };
+  const auto run = run_trials(scene, renderer, options);
+  progress.reset();
+  if (!run) return complain(run.error().message, kWrongUse);
+  const TrialSummary able = summary_of(run->trials, true);
+  const TrialSummary unable = summary_of(run->trials, false);
+  fmt::print("  {:<44} {:>8} {:>8} {:>8} {:>8}\n", "random placements", "all", "right", "wrong",
+             "none");
+  print_trials(able, "enough dots in two views to lock on to");
+  print_trials(unable, "too few");
+  print_row("speed",
+            fmt::format("{:.1f} acquisitions a second, rendering included", run->trials_per_s));
+  fmt::print("results: {}\n", (command.out / "acquisitions.csv").string());
+  return able.wrong + unable.wrong == 0 && able.right > 0 ? kDone : kFailed;
+}
+
+int run(const SimCommand& command) {
+  const auto scene = load(command);
+  if (!scene) return complain(scene.error().message, kWrongUse);
+  if (command.acquisitions > 0 && !scene->vehicle) {
+    return complain(scene->name + " has no vehicle to acquire; expected a scenario with one",
+                    kWrongUse);
+  }
+  fmt::print("{}: {} ({} cameras, {} dots, seed {})\n", scene->name, scene->description,
+             scene->cameras.size(), scene->target.size(), scene->seed);
+  std::fflush(stdout);
+  return command.acquisitions == 0 ? run_scene(*scene, command) : run_placements(*scene, command);
+}
+
+}  // namespace
+
+void add_sim_command(CLI::App& app, int& exit_status) {
+  CLI::App* const sub = app.add_subcommand("sim", "Run the loop against the simulated world.");
+  const auto command = std::make_shared<SimCommand>();
+  sub->add_option("scenario", command->scenario, "A scenario's name, or a file of one")
+      ->capture_default_str();
+  sub->add_option("--out", command->out, "Folder for the results; made when absent")->required();
+  sub->add_option("--seed", command->seed, "Another seed than the scenario's");
+  sub->add_option("--ticks", command->ticks, "Another length than the scenario's");
+  auto* const record = sub->add_option("--record", command->record,
+                                       "Folder for the frames, as `dottrack replay` reads them");
+  sub->add_option("--acquisitions", command->acquisitions,
+                  "Instead of the scenario's motion: this many random placements, one acquisition "
+                  "each")
+      ->check(CLI::Range(1, 10000000))
+      ->excludes(record);
+  sub->add_option("--threads", command->threads, "For rendering; 0: as many as the machine has")
+      ->check(CLI::Range(0, 256));
+  sub->add_flag("!--no-pictures", command->pictures, "No overlay pictures and no plots");
+  sub->callback([command, &exit_status] { exit_status = run(*command); });
+}
+
+}  // namespace dottrack::workstation
