@@ -44,7 +44,7 @@ struct CanModel {
   double bit_rate = 500000.0;
   double load = 0.0;         // share of the bus that others use
   double error_share = 0.0;  // of the frames that are destroyed and sent again
-  std::vector<CanOutage> bus_off;
+  std::vector<CanOutage> bus_off = {};
 };
 
 }  // namespace dottrack::host_sim

@@ -27,9 +27,9 @@ struct SimGrabberCamera {
 };
 
 struct SimGrabberSetup {
-  std::vector<SimGrabberCamera> cameras;  // at most kMaxCameras
-  GrabberModel model;
-  std::vector<CameraFault> faults;
+  std::vector<SimGrabberCamera> cameras = {};  // at most kMaxCameras
+  GrabberModel model = {};
+  std::vector<CameraFault> faults = {};
   std::uint64_t seed = 1;
 };
 
