@@ -1,5 +1,6 @@
 #include "host_sim/scenarios/placements.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "host_sim/world/look_alikes.h"
@@ -90,15 +91,21 @@ class Surroundings {
   RandomStream& random_;
 };
 
-LightPlan random_light(RandomStream& random) {
+// The light, and where irises settle in it: a white floor shall not fill the grey scale.
+void set_random_light(RandomStream& random, Placement& placement) {
   constexpr double kSunShare = 0.3;
-  const bool sun = random.uniform() < kSunShare;
+  constexpr double kFluorescentFloor = 0.6;  // radiance of a white floor at level 1
+  constexpr double kSunFloor = 1.15;
+  constexpr double kWanted = 0.6;
+  const bool with_sun = random.uniform() < kSunShare;
   const double fluorescent = random.uniform(0.5, 1.0);
   const double window = random.uniform(0.1, 1.0);
-  const double sun_level = random.uniform(0.3, 1.0);
-  return {{{"fluorescent", 0.0, fluorescent, 0.0},
-           {"window", 0.0, window, 0.0},
-           {"sun", 0.0, sun ? sun_level : 0.0, 0.0}}};
+  const double sun = (with_sun ? 1.0 : 0.0) * random.uniform(0.3, 1.0);
+  const double floor = kFluorescentFloor * fluorescent + kSunFloor * sun;
+  placement.light = {{{"fluorescent", 0.0, fluorescent, 0.0},
+                      {"window", 0.0, window, 0.0},
+                      {"sun", 0.0, sun, 0.0}}};
+  placement.opening = std::min(1.0, kWanted / floor);
 }
 
 }  // namespace
@@ -118,7 +125,7 @@ Placement random_placement(const Scene& base, const RayScene& hall, std::uint64_
   around.add_up_to(3, "person", placement.bodies,
                    [](RandomStream& r) { return make_person(r.word()); });
   around.add_up_to(2, "crate", placement.bodies, make_crate);
-  placement.light = random_light(random);
+  set_random_light(random, placement);
   return placement;
 }
 

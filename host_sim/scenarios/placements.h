@@ -14,6 +14,7 @@ struct Placement {
   Pose vehicle;              // T_world_vehicle
   std::vector<Body> bodies;  // the vehicle first, then what is around it
   LightPlan light;
+  double opening = 1.0;  // of every iris: where its own control has settled in this light
 };
 
 // The index-th of a seed, a pure function of the arguments: the scene's vehicle anywhere in the

@@ -30,7 +30,7 @@ constexpr NumberRule kGain{0.0, 64.0, "a number above 0 and up to 64"};
 
 struct SensorChoice {
   SensorModel model;
-  double exposure_s = kReferenceExposure_s;
+  double exposure_s = 0.006;
   double gain = 1.0;
 };
 
