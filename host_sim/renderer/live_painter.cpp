@@ -58,16 +58,50 @@ void LivePainter::find_bodies(const Tile& tile) {
   for (const Actor& body : bodies_) {
     if (may_be_seen(body, tile)) seen_.push_back(&body);
   }
-  shaded_lamps_.clear();
+  find_shadows(tile);
+}
+
+void LivePainter::find_shadows(const Tile& tile) {
+  shaded_ = false;
+  for (auto& lamps : shaded_lamps_) lamps.clear();
   const int middle_row = (tile.box.y0 + tile.box.y1) / 2;
   for (std::size_t i = 0; i < stage_.lamps.size(); ++i) {
-    if (static_cast<double>(tile.brightest[i]) * levels_.at(middle_row, i) < kUnseen) continue;
+    const double brightest = static_cast<double>(tile.brightest[i]) * levels_.at(middle_row, i);
+    if (brightest < kUnseen) continue;
     const LampLight& lamp = stage_.lamps[i];
-    if (std::any_of(bodies_.begin(), bodies_.end(),
-                    [&](const Actor& body) { return may_shade(body, tile, lamp); })) {
-      shaded_lamps_.push_back(i);
+    if (std::none_of(bodies_.begin(), bodies_.end(),
+                     [&](const Actor& body) { return may_shade(body, tile, lamp); })) {
+      continue;
+    }
+    for (int y = tile.box.y0; y < tile.box.y1; y += kBlock_px) {
+      for (int x = tile.box.x0; x < tile.box.x1; x += kBlock_px) {
+        if (all_lit(x, y, i, brightest > kStrong)) continue;
+        shaded_lamps_[block_of(tile, x, y)].push_back(i);
+        shaded_ = true;
+      }
     }
   }
+}
+
+// Whether no body keeps the lamp from any node of the block that begins at (x, y).
+bool LivePainter::all_lit(int x, int y, std::size_t lamp, bool strong) {
+  const int step_px = strong ? kBlock_px / 2 : kBlock_px;
+  for (int dy = 0; dy < kBlock_px; dy += step_px) {
+    for (int dx = 0; dx < kBlock_px; dx += step_px) {
+      const int at_x = std::min(x + dx, stage_.camera.width_px() - 1);
+      const int at_y = std::min(y + dy, stage_.camera.height_px() - 1);
+      const auto at = shares_at(still_shares_.cell(at_x, at_y, strong ? 1 : 2), lamp, strong);
+      if (std::any_of(at.begin(), at.end(), [](double share) { return share < 1.0; })) return false;
+    }
+  }
+  return true;
+}
+
+ShareLattice::Shares LivePainter::shares_at(const ShareLattice::Cell& cell, std::size_t lamp,
+                                            bool strong) {
+  return still_shares_.at(cell, lamp, [&](const Look& node, int row) {
+    return node.thing == kNothing ? 1.0 : share_for_still(node, lamp, row, strong);
+  });
 }
 
 bool LivePainter::paint(const Tile& tile, FloatImage& light) {
@@ -76,10 +110,10 @@ bool LivePainter::paint(const Tile& tile, FloatImage& light) {
     paint_seen(tile, light);
     return true;
   }
-  if (shaded_lamps_.empty()) return false;
+  if (!shaded_) return false;
   for (int y = tile.box.y0; y < tile.box.y1; ++y) {
     for (int x = tile.box.x0; x < tile.box.x1; ++x) {
-      light.at(x - tile.box.x0, y - tile.box.y0) = static_cast<float>(still_light(x, y));
+      light.at(x - tile.box.x0, y - tile.box.y0) = static_cast<float>(still_light(tile, x, y));
     }
   }
   return true;
@@ -103,7 +137,7 @@ void LivePainter::paint_seen(const Tile& tile, FloatImage& light) {
       if (stage_.rays.seen(x, y)) {
         sampler.sample(x, y, patches, [](const Look&) {});
         for (const Patch& patch : patches) {
-          sum += patch.share * (patch.look.thing == kNothing ? still_light(x, y)
+          sum += patch.share * (patch.look.thing == kNothing ? still_light(tile, x, y)
                                                              : radiance(patch, x, y, on_bodies));
         }
       }
@@ -191,11 +225,12 @@ double LivePainter::share_for_body(const Look& from, std::size_t lamp, int y, bo
 }
 
 // The still picture less what the bodies keep from it.
-double LivePainter::still_light(int x, int y) {
+double LivePainter::still_light(const Tile& tile, int x, int y) {
   auto light = static_cast<double>(still_.at(x, y));
-  if (shaded_lamps_.empty() || stage_.backdrop.points.at(x, y).thing == kNothing) return light;
+  const std::vector<std::size_t>& lamps = shaded_lamps_[block_of(tile, x, y)];
+  if (lamps.empty() || stage_.backdrop.points.at(x, y).thing == kNothing) return light;
   const Look here = still_look(stage_.backdrop, stage_.rays, x, y);
-  for (const std::size_t i : shaded_lamps_) {
+  for (const std::size_t i : lamps) {
     const double direct =
         levels_.at(y, i) * static_cast<double>(stage_.backdrop.direct[i].at(x, y));
     if (direct >= kUnseen) light -= direct * (1.0 - share_of_still(here, i, direct, x, y));
@@ -210,9 +245,7 @@ double LivePainter::share_of_still(const Look& here, std::size_t lamp, double di
   for (const std::size_t stride : {std::size_t{2}, std::size_t{1}}) {
     if (strong && stride == 2) continue;
     const auto cell = still_shares_.cell(x, y, stride);
-    const auto at = still_shares_.at(cell, lamp, [&](const Look& node, int row) {
-      return node.thing == kNothing ? 1.0 : share_for_still(node, lamp, row, strong);
-    });
+    const auto at = shares_at(cell, lamp, strong);
     if (std::all_of(at.begin(), at.end(), [](double share) { return share == 1.0; })) return 1.0;
     if (!still_shares_.same_face_around(cell, here)) continue;
     if (const auto between = still_shares_.between(cell, at, kEvenRadiance / direct)) {
@@ -222,16 +255,16 @@ double LivePainter::share_of_still(const Look& here, std::size_t lamp, double di
   return share_for_still(here, lamp, y, strong);
 }
 
-double LivePainter::share_for_still(const Look& from, std::size_t lamp, int y, bool finely) const {
+double LivePainter::share_for_still(const Look& from, std::size_t lamp, int y, bool finely) {
   const Vector3d p = off_surface(from);
-  Bodies near;
+  near_.clear();
   for (const Actor& body : bodies_) {
-    if (may_hide(body.reach, {p, 0.0}, stage_.lamps[lamp].reach)) near.push_back(&body);
+    if (may_hide(body.reach, {p, 0.0}, stage_.lamps[lamp].reach)) near_.push_back(&body);
   }
-  if (near.empty()) return 1.0;
+  if (near_.empty()) return 1.0;
   return share_in_sight(stage_.lamps[lamp], finely, [&](const Points& points) {
     unsigned hidden = 0;
-    for (const Actor* body : near) hidden |= hidden_by(*body, y, p, points);
+    for (const Actor* body : near_) hidden |= hidden_by(*body, y, p, points);
     return hidden;
   });
 }

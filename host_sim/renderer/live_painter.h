@@ -29,19 +29,28 @@ class LivePainter {
   bool paint(const Tile& tile, FloatImage& light);
 
  private:
+  static std::size_t block_of(const Tile& tile, int x, int y) {
+    return static_cast<std::size_t>((y - tile.box.y0) / kBlock_px * 2 +
+                                    (x - tile.box.x0) / kBlock_px);
+  }
+
   using Points = std::array<Eigen::Vector3d, 4>;
   using Bodies = std::vector<const Actor*>;
+  static constexpr int kBlock_px = TileIndex::kTile_px / 2;
 
   void find_bodies(const Tile& tile);
+  void find_shadows(const Tile& tile);
+  bool all_lit(int x, int y, std::size_t lamp, bool strong);
   void paint_seen(const Tile& tile, FloatImage& light);
   Look look(const Sight& sight, int x, int y) const;
   bool hidden_by_hall(const Sight& sight, double distance, int x, int y) const;
   double radiance(const Patch& patch, int x, int y, ShareLattice& shares);
   double share_of_patch(const Patch& patch, std::size_t lamp, int x, int y, ShareLattice& shares);
   double share_for_body(const Look& from, std::size_t lamp, int y, bool finely) const;
-  double still_light(int x, int y);
+  double still_light(const Tile& tile, int x, int y);
+  ShareLattice::Shares shares_at(const ShareLattice::Cell& cell, std::size_t lamp, bool strong);
   double share_of_still(const Look& here, std::size_t lamp, double direct, int x, int y);
-  double share_for_still(const Look& from, std::size_t lamp, int y, bool finely) const;
+  double share_for_still(const Look& from, std::size_t lamp, int y, bool finely);
 
   const Stage& stage_;
   const Levels& levels_;
@@ -52,7 +61,10 @@ class LivePainter {
   std::vector<std::vector<Bodies>> shading_bodies_;  // by body that is shaded, then lamp
   // Of the tile at hand.
   Bodies seen_;
-  std::vector<std::size_t> shaded_lamps_;  // those that a body may keep from what stands still
+  // The lamps that a body keeps from what stands still, by block of kBlock_px.
+  std::array<std::vector<std::size_t>, 4> shaded_lamps_;
+  bool shaded_ = false;
+  Bodies near_;  // a point, on its way to a lamp
   FaceShares face_shares_;
   std::vector<double> radiance_;  // of one patch, by lamp
 };

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host_sim/renderer/exact_hit.h"
+#include "host_sim/renderer/tube.h"
 
 namespace dottrack::host_sim {
 namespace {
@@ -61,13 +62,7 @@ RTCGeometry geometry_of(const Balls& balls) {
 }
 
 RTCGeometry geometry_of(const Cable& cable) {
-  if (cable.path.size() < 2) return nullptr;
-  std::vector<std::uint32_t> firsts(cable.path.size() - 1);
-  for (std::size_t i = 0; i < firsts.size(); ++i) firsts[i] = static_cast<std::uint32_t>(i);
-  RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
-  fill(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, cable.path);
-  fill(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, firsts);
-  return geometry;
+  return cable.path.size() < 2 ? nullptr : geometry_of(tube_around(cable));
 }
 
 void throw_no_shadow(const RTCFilterFunctionNArguments* hit) {
@@ -183,7 +178,7 @@ RayHit RayScene::meet(const Vector3d& origin, const Vector3d& direction, double 
   } else if (const auto* balls = std::get_if<Balls>(&solid)) {
     hit = exact_hit(*balls, query.hit.primID, line, near);
   } else {
-    hit = exact_hit(std::get<Cable>(solid), query.hit.primID, line, near);
+    hit = exact_hit(std::get<Cable>(solid), query.hit.primID / kTubeTriangles, line, near);
   }
   const double length = hit.normal.norm() * (hit.normal.dot(direction) > 0.0 ? -1.0 : 1.0);
   return {hit.distance, static_cast<int>(part), hit.normal / length};
