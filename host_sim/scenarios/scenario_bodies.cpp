@@ -31,6 +31,7 @@ Body read_person(Complaint& complaint, const toml::table& table, const Grounds& 
   const WayPoints points = read_way_points(reader, "way_points", 1, grounds, kOutsideBoards_m);
   const double speed = reader.number("speed_m_s", 1.0, kSpeed);
   const bool closed = reader.boolean("closed", true);
+  if (points.size() > 1) check_turns(reader, "way_points", points, closed);
   Body body{"person", make_person(seed), {}};
   if (points.size() == 1) {
     const double yaw = RandomStream(seed, 0xFACE).uniform(-kPi, kPi);

@@ -69,6 +69,18 @@ WayPoints read_way_points(TableReader& reader, std::string_view key, std::size_t
   return points;
 }
 
+void check_turns(TableReader& reader, std::string_view key, const WayPoints& points, bool closed) {
+  const std::size_t n = points.size();
+  for (std::size_t i = closed ? 0 : 1; i + (closed ? 0 : 1) < n; ++i) {
+    if (points[(i + n - 1) % n] != points[(i + 1) % n]) continue;
+    reader.complain(key,
+                    fmt::format("a way that turns on the spot at [{}, {}]",
+                                config::shortest(points[i].x()), config::shortest(points[i].y())),
+                    "a way round, or closed = false");
+    return;
+  }
+}
+
 VehicleChoice read_vehicle(Complaint& complaint, const toml::table* table) {
   VehicleChoice choice;
   choice.target = demo_layout();

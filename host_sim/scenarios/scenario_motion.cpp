@@ -58,6 +58,7 @@ class MotionReader {
     const double speed = reader_.number("speed_m_s", 0.3, kSpeed);
     const bool closed = reader_.boolean("closed", true);
     if (points.size() < 2) return {};
+    check_turns(reader_, "way_points", points, closed);
     return made_of(
         [=](const Terrain& terrain) { return drive_along(terrain, points, speed, closed); },
         path_length_m(points, closed) / speed);

@@ -46,6 +46,9 @@ void complain_outside(TableReader& reader, std::size_t line, const Eigen::Vector
 WayPoints read_way_points(TableReader& reader, std::string_view key, std::size_t at_least,
                           const Grounds& grounds, double outside_m = 0.0);
 
+// Complains of a way that goes back where it came from: a smooth curve has no heading there.
+void check_turns(TableReader& reader, std::string_view key, const WayPoints& points, bool closed);
+
 enum class VehicleKind : std::uint8_t { rover, hanging, none };
 struct VehicleChoice {
   VehicleKind kind = VehicleKind::rover;

@@ -16,7 +16,7 @@ namespace {
 Scene small_scene() {
   const auto scene = parse_scenario(
       "[scenario]\nname = \"small\"\nticks = 3\n[motion]\nkind = \"drive\"\n"
-      "way_points = [[-1, 0], [1, 0]]\n[[person]]\nway_points = [[0, 2]]\n"
+      "way_points = [[-1, 0], [1, 0]]\nclosed = false\n[[person]]\nway_points = [[0, 2]]\n"
       "[hall]\nrocks = 10\nlook_alikes = 4\nlander = false\nfurniture = false\n"
       "[cameras]\ncount = 3\nwidth_px = 64\nheight_px = 48\n",
       "small.toml");
