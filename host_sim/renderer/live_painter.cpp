@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "host_sim/renderer/thresholds.h"
 #include "host_sim/renderer/tile_sampler.h"
@@ -14,9 +15,23 @@ using Eigen::Vector3d;
 using Points = std::array<Vector3d, 4>;
 
 constexpr unsigned kEdgeLooks = 8;
-constexpr double kSameDistance = 1e-5;   // relative: what stands in a hit's own place
-constexpr double kStrong = 6.0 / 255.0;  // lamps whose shadows must not be blocky
+constexpr double kSameDistance = 1e-5;    // relative: what stands in a hit's own place
+constexpr double kStrong = 14.0 / 255.0;  // lamps whose shadows must not be blocky
+// Shares of all light. Lamps that give a body less are taken to be hidden as the others are; those
+// that give less to what stands still throw no shadows on it.
+constexpr double kFaint = 0.04;
+constexpr double kFaintOnStill = 0.015;
 constexpr double kUnseen = 0.3 / 255.0;  // shadows that take away less are left out
+
+// Of every how many nodes: a weak lamp's shadow from every second where these agree.
+std::span<const std::size_t> strides(bool strong) {
+  static constexpr std::array<std::size_t, 2> kStrides{2, 1};
+  return std::span(kStrides).subspan(strong ? 1 : 0);
+}
+
+double tolerance_of(bool strong, std::size_t stride) {
+  return !strong && stride == 1 ? 2.0 * kEvenRadiance : kEvenRadiance;
+}
 
 std::size_t index_of(int thing) {
   return static_cast<std::size_t>(actor_of(thing) - kFirstBody);
@@ -42,6 +57,8 @@ LivePainter::LivePainter(const Stage& stage, const Levels& levels, const FloatIm
       face_shares_(stage.lamps.size()) {
   still_shares_.forget();
   for (const Actor& shaded : bodies) {
+    std::vector<bool>& clear = hall_is_clear_.emplace_back();
+    for (const LampLight& lamp : stage.lamps) clear.push_back(clear_of_hall(shaded, lamp));
     std::vector<Bodies>& by_lamp = shading_bodies_.emplace_back(stage.lamps.size());
     for (std::size_t i = 0; i < stage.lamps.size(); ++i) {
       for (const Actor& body : bodies) {
@@ -51,6 +68,19 @@ LivePainter::LivePainter(const Stage& stage, const Levels& levels, const FloatIm
       }
     }
   }
+}
+
+// Whether the hall keeps nothing of the lamp from 27 points all over the body's box.
+bool LivePainter::clear_of_hall(const Actor& body, const LampLight& lamp) const {
+  const Vector3d& low = body.scene->low();
+  const Vector3d half = 0.5 * (body.scene->high() - low);
+  const Pose& pose = body.pose(stage_.camera.height_px() / 2);
+  for (int i = 0; i < 27; ++i) {
+    // The lowest are off what the body stands on.
+    const Vector3d at = low + half.cwiseProduct(Vector3d(i % 3, i / 3 % 3, 0.1 + 0.95 * (i / 9)));
+    if (stage_.hall.scene->blocked(pose.to_world(at), lamp.points[0]) != 0U) return false;
+  }
+  return true;
 }
 
 void LivePainter::find_bodies(const Tile& tile) {
@@ -187,24 +217,32 @@ double LivePainter::radiance(const Patch& patch, int x, int y, ShareLattice& sha
   if (finish.lamp >= 0) {
     sum += levels_.at(y, static_cast<std::size_t>(finish.lamp)) * finish.emission;
   }
-  const double faint = faint_radiance(radiance_);
+  const double faint = kFaint * std::accumulate(radiance_.begin(), radiance_.end(), 0.0);
+  double faintly = 0.0;
+  double strongly = 0.0;
+  double seen = 0.0;
   for (std::size_t i = 0; i < radiance_.size(); ++i) {
-    const bool shadows = radiance_[i] > faint;
-    sum += radiance_[i] * (shadows ? share_of_patch(patch, i, x, y, shares) : 1.0);
+    if (radiance_[i] > faint) {
+      strongly += radiance_[i];
+      seen += radiance_[i] * share_of_patch(patch, i, x, y, shares);
+    } else {
+      faintly += radiance_[i];
+    }
   }
-  return sum;
+  return sum + seen + (strongly > 0.0 ? faintly * seen / strongly : faintly);
 }
 
 double LivePainter::share_of_patch(const Patch& patch, std::size_t lamp, int x, int y,
                                    ShareLattice& shares) {
   const bool strong = radiance_[lamp] > kStrong;
-  const auto cell = shares.cell(x, y);
-  if (shares.same_face_around(cell, patch.look)) {
+  for (const std::size_t stride : strides(strong)) {
+    const auto cell = shares.cell(x, y, stride);
+    if (!shares.same_face_around(cell, patch.look)) continue;
     const auto at = shares.at(cell, lamp, [&](const Look& node, int row) {
       return share_for_body(node, lamp, row, strong);
     });
-    const auto between = shares.between(cell, at, kEvenRadiance / radiance_[lamp]);
-    if (between) return *between;
+    const double tolerance = tolerance_of(strong, stride) / radiance_[lamp];
+    if (const auto between = shares.between(cell, at, tolerance)) return *between;
   }
   if (strong) return share_for_body(patch.look, lamp, y, true);
   double& share = face_shares_.at(x, y, patch.look, lamp);
@@ -215,12 +253,13 @@ double LivePainter::share_of_patch(const Patch& patch, std::size_t lamp, int x, 
 double LivePainter::share_for_body(const Look& from, std::size_t lamp, int y, bool finely) const {
   const Vector3d p = off_surface(from);
   const Bodies& shading = shading_bodies_[index_of(from.thing)][lamp];
+  const bool clear = !finely && hall_is_clear_[index_of(from.thing)][lamp];
   return share_in_sight(stage_.lamps[lamp], finely, [&](const Points& points) {
     unsigned hidden = 0;
     for (const Actor* body : shading) {
       if (hidden != 0xFU) hidden |= hidden_by(*body, y, p, points);
     }
-    return hidden == 0xFU ? hidden : hidden | stage_.hall.scene->blocked(p, points);
+    return clear || hidden == 0xFU ? hidden : hidden | stage_.hall.scene->blocked(p, points);
   });
 }
 
@@ -233,24 +272,22 @@ double LivePainter::still_light(const Tile& tile, int x, int y) {
   for (const std::size_t i : lamps) {
     const double direct =
         levels_.at(y, i) * static_cast<double>(stage_.backdrop.direct[i].at(x, y));
-    if (direct >= kUnseen) light -= direct * (1.0 - share_of_still(here, i, direct, x, y));
+    if (direct > std::max(kUnseen, kFaintOnStill * light))
+      light -= direct * (1.0 - share_of_still(here, i, direct, x, y));
   }
   return light;
 }
 
-// Weak lamps from every second node of the lattice, where these agree.
 double LivePainter::share_of_still(const Look& here, std::size_t lamp, double direct, int x,
                                    int y) {
   const bool strong = direct > kStrong;
-  for (const std::size_t stride : {std::size_t{2}, std::size_t{1}}) {
-    if (strong && stride == 2) continue;
+  for (const std::size_t stride : strides(strong)) {
     const auto cell = still_shares_.cell(x, y, stride);
     const auto at = shares_at(cell, lamp, strong);
     if (std::all_of(at.begin(), at.end(), [](double share) { return share == 1.0; })) return 1.0;
-    if (!still_shares_.same_face_around(cell, here)) continue;
-    if (const auto between = still_shares_.between(cell, at, kEvenRadiance / direct)) {
-      return *between;
-    }
+    if (strong && !still_shares_.same_face_around(cell, here)) continue;
+    const double tolerance = tolerance_of(strong, stride) / direct;
+    if (const auto between = still_shares_.between(cell, at, tolerance)) return *between;
   }
   return share_for_still(here, lamp, y, strong);
 }

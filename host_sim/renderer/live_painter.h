@@ -38,6 +38,7 @@ class LivePainter {
   using Bodies = std::vector<const Actor*>;
   static constexpr int kBlock_px = TileIndex::kTile_px / 2;
 
+  bool clear_of_hall(const Actor& body, const LampLight& lamp) const;
   void find_bodies(const Tile& tile);
   void find_shadows(const Tile& tile);
   bool all_lit(int x, int y, std::size_t lamp, bool strong);
@@ -59,6 +60,7 @@ class LivePainter {
   ShareLattice& still_shares_;
   MarkCovers marks_;
   std::vector<std::vector<Bodies>> shading_bodies_;  // by body that is shaded, then lamp
+  std::vector<std::vector<bool>> hall_is_clear_;     // between a body and a lamp
   // Of the tile at hand.
   Bodies seen_;
   // The lamps that a body keeps from what stands still, by block of kBlock_px.
