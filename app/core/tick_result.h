@@ -47,6 +47,7 @@ struct CameraTick {
   std::uint32_t regions = 0;     // accepted by identify
   std::uint32_t components = 0;  // before the gates
   bool overflow = false;         // a capacity was reached: some regions were left out
+  bool stale = false;            // delivered the picture of the tick before again: left out
 };
 
 // How many candidates each gate of acquisition left over (paper 3.1.2 to 3.1.5).

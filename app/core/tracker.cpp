@@ -6,6 +6,7 @@
 #include "app/core/geometry/optics.h"
 #include "app/core/image/band.h"
 #include "app/core/image/identify.h"
+#include "app/core/stale_images.h"
 #include "app/core/tracking/follow.h"
 
 namespace dottrack::core {
@@ -69,6 +70,7 @@ struct Tracker::Memory {
   std::array<image::Regions, kMaxCameras> considered;  // in the dots' windows
   std::array<image::Regions*, kMaxCameras> considered_of{};
   Frames frames{};
+  StaleImages stale_images;
   CameraSet delivered;
   bool started = false;
   bool acquired_last = true;  // the last tick looked at whole images
@@ -82,6 +84,11 @@ void Tracker::Memory::take_frames(const Frames& given) {
   delivered = CameraSet{};
   for (std::size_t i = 0; i < kMaxCameras; ++i) {
     frames[i].delivered = i < rig.cameras.size() && usable(given[i], rig.cameras[i]);
+  }
+  const CameraSet stale = stale_images.update(frames);
+  for (std::size_t i = 0; i < kMaxCameras; ++i) {
+    result.cameras[i].stale = stale.contains(i);
+    frames[i].delivered = frames[i].delivered && !stale.contains(i);
     if (frames[i].delivered) delivered.insert(i);
     result.cameras[i].delivered = frames[i].delivered;
   }

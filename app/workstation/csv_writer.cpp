@@ -117,7 +117,8 @@ std::string header(const std::vector<std::string>& cameras, std::size_t dots) {
   header_of_pose(line);
   for (std::size_t dot = 0; dot < dots; ++dot) header_of_dot(dot, cameras, line);
   for (const std::string& camera : cameras) {
-    for (const std::string_view name : {"delivered", "used", "regions", "components", "overflow"}) {
+    for (const std::string_view name :
+         {"delivered", "used", "regions", "components", "overflow", "stale"}) {
       line << fmt::format("{}_{}", camera, name);
     }
   }
@@ -145,7 +146,7 @@ void CsvWriter::do_write(const telemetry::CycleRecord& record) {
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     const core::CameraTick& camera = result.cameras[i];
     line << camera.delivered << camera.used << camera.regions << camera.components
-         << camera.overflow;
+         << camera.overflow << camera.stale;
   }
   for (const auto& [name, value] : count_columns(result.acquisition)) line << value;
   line << result.acquisition.chance_matches;

@@ -70,6 +70,12 @@ bool is_ever_in_view(const Scene& scene) {
   return false;
 }
 
+// Whoever carries the vehicle elsewhere at the instant of a frame has done so shortly before it.
+Motion between_frames(Motion motion, double frame_rate_hz) {
+  const double ahead_s = 0.25 / frame_rate_hz;
+  return [motion = std::move(motion), ahead_s](double time_s) { return motion(time_s + ahead_s); };
+}
+
 class ScenarioReader {
  public:
   ScenarioReader(Complaint& complaint, const ScenarioOverrides& overrides)
@@ -113,7 +119,8 @@ class ScenarioReader {
                 const Drive& drive) {
     Motion motion;
     if (drive.motion && complaint_.empty()) {
-      motion = drive.motion(scene_.terrain);
+      motion = between_frames(drive.motion(scene_.terrain), scene_.frame_rate_hz);
+      scene_.spans = drive.spans;
       scene_.vehicle = scene_.world.bodies.size();
       scene_.world.bodies.push_back(make_vehicle(vehicle, motion));
     }

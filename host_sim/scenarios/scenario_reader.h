@@ -60,7 +60,8 @@ struct Drive {
   std::optional<Ramp> ramp;
   // Made when the terrain is known, which the ramp is part of.
   std::function<Motion(const Terrain&)> motion;
-  WayPoints way;  // where the vehicle's middle comes, close together
+  WayPoints way;            // where the vehicle's middle comes, close together
+  std::vector<Span> spans;  // that count by themselves
   std::size_t line = 1;
 };
 Drive read_motion(Complaint& complaint, const toml::table* table, const Grounds& grounds,

@@ -57,7 +57,6 @@ struct Scene {
   std::optional<std::size_t> vehicle;
   TargetLayout target;      // on the vehicle, or looked for in vain where there is none
   std::vector<Span> spans;  // in order of time; empty where the run is of one piece
-  std::vector<Eigen::Vector3d> surveyed_dots_m;  // large dots that the cameras are calibrated by
   DotAppearance appearance;
   GrabberModel grabber;
   std::vector<CameraFault> camera_faults;
