@@ -30,15 +30,9 @@ constexpr IntegerRule kPlaces{1, 1000, "a whole number from 1 to 1000"};
 
 constexpr double kBeforeRamp_m = 2.0;  // where the drive up begins
 constexpr double kStep_m = 0.25;       // between the places of a way
-constexpr double kEarly_s = 0.02;      // before its time, so that no exposure sees both places
 
 Vector2d ahead(double yaw_rad) {
   return {cosine(yaw_rad), sine(yaw_rad)};
-}
-
-// For motions that jump: what is due at a tick has happened before its exposure begins.
-Motion early(Motion motion) {
-  return [motion = std::move(motion)](double time_s) { return motion(time_s + kEarly_s); };
 }
 
 // The vehicle's middle along the motion, as far as `until_s`.
@@ -81,14 +75,13 @@ class MotionReader {
     Drive drive_all = drive();
     const double gone = reader_.number("gone_s", std::nullopt, kSeconds);
     const double back = reader_.number("back_s", std::nullopt, kSeconds);
-    if (!(gone > kEarly_s)) reader_.complain("gone_s", config::shortest(gone), "a time above 0.02");
     if (!(gone < back)) {
       reader_.complain("back_s", config::shortest(back), "a time after gone_s");
     }
     if (!drive_all.motion) return drive_all;
     drive_all.motion = [=, all = drive_all.motion](const Terrain& terrain) {
       const Motion motion = all(terrain);
-      return switched({{0.0, motion}, {gone - kEarly_s, Motion{}}, {back - kEarly_s, motion}});
+      return switched({{0.0, motion}, {gone, Motion{}}, {back, motion}});
     };
     return drive_all;
   }
@@ -123,7 +116,7 @@ class MotionReader {
               motion = straight_on(terrain, stay.at, stay.yaw_rad, speed, stay.from_s);
             motions.emplace_back(stay.from_s, std::move(motion));
           }
-          return early(switched(std::move(motions)));
+          return switched(std::move(motions));
         },
         last_s + 10.0);
   }
@@ -166,7 +159,7 @@ class MotionReader {
       lines.push_back(line);
     }
     if (lines.empty()) return {};
-    Drive drive = made_of([=](const Terrain&) { return early(crane_lines(lines)); }, total_s);
+    Drive drive = made_of([=](const Terrain&) { return crane_lines(lines); }, total_s);
     for (const LineTimes& times : crane_line_times(lines)) {
       drive.spans.push_back(
           {fmt::format("line {}", drive.spans.size() + 1), times.from_s, times.to_s});
@@ -200,7 +193,7 @@ class MotionReader {
         [=](const Terrain& terrain) {
           std::vector<Pose> poses;
           for (const auto& [at, yaw] : places) poses.push_back(placed_on(terrain, at, yaw));
-          return early(survey_places(std::move(poses), dwell));
+          return survey_places(std::move(poses), dwell);
         },
         0.0);
     for (const auto& [at, yaw] : places) {

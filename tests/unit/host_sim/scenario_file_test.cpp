@@ -78,12 +78,13 @@ TEST(ScenarioFile, EveryMotionIsThere) {
     return pose ? pose->position_m : Eigen::Vector3d(99.0, 99.0, 99.0);
   };
   const std::string way = "way_points = [[-2, 0], [2, 0], [2, 2]]\nspeed_m_s = 0.5\n";
-  EXPECT_NEAR(at("kind = \"drive\"\n" + way, 0.0).x(), -2.0, 1e-6);
+  EXPECT_NEAR(at("kind = \"drive\"\n" + way, 0.0).x(), -2.0, 0.03);
   EXPECT_GT((at("kind = \"drive\"\n" + way, 2.0) - at("kind = \"drive\"\n" + way, 0.0)).norm(),
             0.8);
   const std::string kidnap = "kind = \"kidnap\"\nplaces = [[0, -3, 0, 0], [2, 3, 1, 90]]\n";
-  EXPECT_NEAR(at(kidnap, 1.99).x(), -3.0, 1e-3);
+  EXPECT_NEAR(at(kidnap, 1.97).x(), -3.0, 1e-3);
   EXPECT_NEAR(at(kidnap, 2.0).x(), 3.0, 1e-3);
+  EXPECT_NEAR(at(kidnap, 1.99).x(), 3.0, 1e-3) << "before the exposure at 2 s begins";
   const std::string leave = "kind = \"leave_and_return\"\n" + way + "gone_s = 1\nback_s = 3\n";
   EXPECT_LT(at(leave, 0.9).x(), 90.0);
   EXPECT_EQ(at(leave, 2.0).x(), 99.0);
@@ -111,7 +112,7 @@ TEST(ScenarioFile, TheHangingTargetMovesAlongItsLines) {
                                "lines = [[-4, 1, 1, 4, 1, 1]]\n");
   const auto pose = truth(scene, 4.0);
   ASSERT_TRUE(pose);
-  EXPECT_NEAR(pose->position_m.x(), 0.0, 0.02);
+  EXPECT_NEAR(pose->position_m.x(), 0.0, 0.06);
   EXPECT_NEAR(pose->position_m.y(), 1.0, 0.005);
 }
 
