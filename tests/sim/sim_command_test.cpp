@@ -142,7 +142,7 @@ TEST_F(SimCommand, WrongInputIsOneLine) {
   };
   const std::vector<Case> cases = {
       {{"no_such", "--out", out}, "no_such"},
-      {{moved("rocks", "rokcs"), "--out", out}, "rokcswrong.toml:7: "},
+      {{moved("rocks", "rokcs"), "--out", out}, "rokcswrong.toml:9: "},
       {{moved("[-0.8, -0.5]", "[-8.0, -0.5]"), "--out", out}, "outside the hall"},
       {{moved("ticks = 6", "ticks = 0"), "--out", out}, "wrong.toml:4: "},
       {{scenario(), "--ticks", "0", "--out", out}, "ticks is 0"},
