@@ -44,7 +44,7 @@ class Trials {
     const Placement placement =
         host_sim::random_placement(scene_, renderer_.hall().scene, scene_.seed, index);
     const host_sim::BodyScenes bodies(placement.bodies);
-    renderer_.render(exposures(index), bodies.moving(), placement.light, images_);
+    renderer_.render(exposures(placement, index), bodies.moving(), placement.light, images_);
     Trial trial = described(placement, index);
     const auto views = host_sim::views_of_dots(scene_.cameras, scene_.target, placement.vehicle,
                                                renderer_.hall(), bodies.moving(), 0.0);
@@ -54,12 +54,12 @@ class Trials {
   }
 
  private:
-  std::vector<host_sim::Exposure> exposures(std::uint64_t index) const {
+  std::vector<host_sim::Exposure> exposures(const Placement& placement, std::uint64_t index) const {
     std::vector<host_sim::Exposure> all;
     for (std::size_t i = 0; i < scene_.cameras.size(); ++i) {
       const host_sim::SceneCamera& camera = scene_.cameras[i];
       all.push_back(
-          {0.0, camera.exposure_s, camera.gain, scene_.iris.opening, {scene_.seed, i, index}});
+          {0.0, camera.exposure_s, camera.gain, placement.opening, {scene_.seed, i, index}});
     }
     return all;
   }

@@ -11,8 +11,8 @@
 #include <thread>
 
 #include "app/workstation/replay_command.h"
-#include "tests/sim/program_run.h"
 #include "tests/sim/small_scenario.h"
+#include "tests/support/program_run.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/workstation/json_check.h"
 #include "tests/unit/workstation/text_of.h"
