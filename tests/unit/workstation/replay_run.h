@@ -1,39 +1,25 @@
 #pragma once
 // `dottrack replay` as a user runs it, inside the test's own process.
 
-#include <gtest/gtest.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/workstation/replay_command.h"
+#include "tests/support/program_run.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/workstation/json_check.h"
 #include "tests/unit/workstation/text_of.h"
 
 namespace dottrack::workstation {
 
-struct ReplayRun {
-  int status = -1;
-  std::string out;
-  std::string err;
-};
+using ReplayRun = test::ProgramRun;
 
 inline ReplayRun run_replay(std::vector<std::string> arguments) {
-  ReplayRun run;
-  CLI::App app("test", "dottrack");
-  add_replay_command(app, run.status);
   arguments.insert(arguments.begin(), "replay");
-  std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes a vector
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  app.parse(arguments);
-  run.out = testing::internal::GetCapturedStdout();
-  run.err = testing::internal::GetCapturedStderr();
-  return run;
+  return test::run_program(add_replay_command, std::move(arguments));
 }
 
 inline std::size_t line_count(const std::string& text) {
