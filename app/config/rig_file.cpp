@@ -11,6 +11,7 @@
 
 #include "app/config/camera_file.h"
 #include "app/config/complaint.h"
+#include "app/config/rig_rules.h"
 #include "app/config/table_reader.h"
 #include "app/config/target_file.h"
 #include "app/config/text_file.h"
@@ -19,13 +20,7 @@ namespace dottrack::config {
 namespace {
 
 constexpr NumberRule kFrameRate{0.0, 1000.0, "a number of hertz above 0 and up to 1000"};
-constexpr NumberRule kDistance{0.0, 1000.0,
-                               "two numbers of metres, 0 < nearest < farthest <= 1000"};
-constexpr NumberRule kStep{0.0, 100.0, "a number of metres above 0 and up to 100"};
 constexpr NumberRule kResidual{0.0, 10.0, "a number of metres above 0 and up to 10"};
-constexpr IntegerRule kIntensity{0, 255, "two whole numbers, 0 <= darkest <= brightest <= 255"};
-constexpr IntegerRule kContrast{0, 254, "a whole number from 0 to 254"};
-constexpr IntegerRule kBackground{3, 255, "an odd whole number from 3 to 255"};
 constexpr IntegerRule kLostAfter{1, 1'000'000, "a whole number from 1 to 1000000"};
 
 // A camera's name is also the name of a folder and of files.

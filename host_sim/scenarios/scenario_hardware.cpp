@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/config/rig_rules.h"
 #include "host_sim/scenarios/scenario_reader.h"
 
 namespace dottrack::host_sim {
@@ -13,12 +14,6 @@ constexpr NumberRule kIrisSpeed{0.0, 100.0, "a number a second above 0 and up to
 constexpr NumberRule kDrift{-1.0, 1.0, "a number a second from -1 to 1", true};
 constexpr NumberRule kBitRate{9999.0, 1e6, "a number of bits a second from 10000 to 1000000"};
 constexpr NumberRule kLoad{0.0, 0.95, "a number from 0 to 0.95", true};
-constexpr NumberRule kDistance{0.0, 1000.0,
-                               "two numbers of metres, 0 < nearest < farthest <= 1000"};
-constexpr NumberRule kStep{0.0, 100.0, "a number of metres above 0 and up to 100"};
-constexpr IntegerRule kIntensity{0, 255, "two whole numbers, 0 <= darkest <= brightest <= 255"};
-constexpr IntegerRule kContrast{0, 254, "a whole number from 0 to 254"};
-constexpr IntegerRule kBackground{3, 255, "an odd whole number from 3 to 255"};
 
 void read_grabber(Complaint& complaint, const toml::table& table, GrabberModel& grabber) {
   TableReader reader(complaint, table, "[grabber]", {"latency_ms", "jitter_ms", "drop_share"});
@@ -96,16 +91,17 @@ DotAppearance read_appearance(Complaint& complaint, const toml::table* table) {
       {"distance_m", "intensity_dn", "min_contrast_dn", "background_px", "max_step_m"});
   if (reader.has("distance_m")) {
     std::tie(dots.distance_min_m, dots.distance_max_m) =
-        reader.number_range("distance_m", kDistance);
+        reader.number_range("distance_m", config::kDistance);
   }
   std::tie(dots.intensity_min_dn, dots.intensity_max_dn) = reader.integer_range(
-      "intensity_dn", {dots.intensity_min_dn, dots.intensity_max_dn}, kIntensity);
-  dots.min_contrast_dn = reader.integer("min_contrast_dn", dots.min_contrast_dn, kContrast);
-  dots.background_px = reader.integer("background_px", dots.background_px, kBackground);
+      "intensity_dn", {dots.intensity_min_dn, dots.intensity_max_dn}, config::kIntensity);
+  dots.min_contrast_dn = reader.integer("min_contrast_dn", dots.min_contrast_dn, config::kContrast);
+  dots.background_px = reader.integer("background_px", dots.background_px, config::kBackground);
   if (dots.background_px % 2 == 0) {
-    reader.complain("background_px", std::to_string(dots.background_px), kBackground.expected);
+    reader.complain("background_px", std::to_string(dots.background_px),
+                    config::kBackground.expected);
   }
-  dots.max_step_m = reader.number("max_step_m", dots.max_step_m, kStep);
+  dots.max_step_m = reader.number("max_step_m", dots.max_step_m, config::kStep);
   return dots;
 }
 
