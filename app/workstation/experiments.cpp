@@ -15,7 +15,6 @@
 namespace dottrack::workstation {
 namespace {
 
-namespace fs = std::filesystem;
 using host_sim::Scene;
 
 // Surveyed dots on the floor and the walls, of which each camera is fitted to the 60 or fewer that

@@ -13,7 +13,7 @@ inline constexpr double kReferenceExposure_s = 0.004;
 
 struct SensorModel {
   double blur_sigma_px = 0.6;    // 0: none
-  double sensitivity = 1.0;     // radiance 1 gives 255 DN times this at the reference exposure,
+  double sensitivity = 1.0;      // radiance 1 gives 255 DN times this at the reference exposure,
                                  // unit gain and a fully open iris
   double corner_falloff = 0.35;  // share of the light that is lost in the image's corners
   double black_level_dn = 0.0;

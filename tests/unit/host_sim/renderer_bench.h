@@ -90,6 +90,11 @@ inline SimCamera camera_over(const Vector3d& eye, const Vector3d& aim, int width
   return {eye, looking_at(eye, aim, 0.1, Vector3d::UnitY()), lens, width_px, height_px};
 }
 
+inline const SimCamera& overhead() {
+  static const SimCamera camera = camera_over({0.3, 0.2, 5.0}, {0.0, 0.0, 0.0});
+  return camera;
+}
+
 // A body before the camera: the model, and its motion.
 struct Moving {
   Moving(Model model, Motion how) : scene(std::move(model)), motion(std::move(how)) {}

@@ -11,11 +11,6 @@ namespace {
 
 using namespace bench;
 
-const SimCamera& overhead() {
-  static const SimCamera camera = camera_over({0.3, 0.2, 5.0}, {0.0, 0.0, 0.0});
-  return camera;
-}
-
 Motion sliding(const Vector3d& from_m, const Vector3d& velocity_m_s) {
   return [=](double time_s) {
     return Pose{from_m + time_s * velocity_m_s, Eigen::Matrix3d::Identity()};

@@ -11,11 +11,6 @@ namespace {
 
 using namespace bench;
 
-const SimCamera& overhead() {
-  static const SimCamera camera = camera_over({0.3, 0.2, 5.0}, {0.0, 0.0, 0.0});
-  return camera;
-}
-
 Model white_floor() {
   return {{plate(Vector3d::Zero(), 20.0, 20.0, 0.8)}, {}};
 }
