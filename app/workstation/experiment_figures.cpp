@@ -54,6 +54,7 @@ LineFigures line_figures(std::span<const TruthRow> rows, std::span<const host_si
     figures.worst_line_mm = std::max(figures.worst_line_mm, 1000.0 * figures.lines.back().rms_m);
   }
   figures.all = together(figures.lines);
+  figures.error_rms_mm = accuracy_of(rows).position_rms_mm;
   return figures;
 }
 

@@ -45,7 +45,9 @@ std::string line_rows(const Experiments& e) {
          both("straight lines: worst run, RMS", "12.0 mm", e.lines,
               [](const LineFigures& l) { return mm(l.worst_line_mm); }) +
          both("straight lines: worst single measurement", "61.3 mm", e.lines,
-              [](const LineFigures& l) { return metres_in_mm(l.all.max_m); });
+              [](const LineFigures& l) { return metres_in_mm(l.all.max_m); }) +
+         both("  RMS error of these, without the dangling", "not known", e.lines,
+              [](const LineFigures& l) { return mm(l.error_rms_mm); });
 }
 
 std::string acquisition_row(const AcquisitionFigures& a) {

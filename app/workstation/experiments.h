@@ -35,6 +35,7 @@ struct LineFigures {  // a target on a crane, against straight lines
   std::vector<Straightness> lines;
   Straightness all;
   double worst_line_mm = 0.0;  // RMS
+  double error_rms_mm = 0.0;   // against the truth, which dangles
 };
 
 struct DriveFigures {
