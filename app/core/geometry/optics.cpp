@@ -27,15 +27,17 @@ double AngularScale::mean_px() const {
 Optics::Optics(const CameraModel& model, int width_px, int height_px)
     : cells_per_column_(static_cast<double>(kCells) / width_px),
       cells_per_row_(static_cast<double>(kCells) / height_px) {
-  for (int i = 0; i < kCells * kCells; ++i) {
-    const double x = (i % kCells + 0.5) / cells_per_column_ - 0.5;
-    const double y = (i / kCells + 0.5) / cells_per_row_ - 0.5;
-    const AngularScale scale = scale_at(model, {x, y});
-    cells_[static_cast<std::size_t>(i)] = scale;
-    if (scale.max_px <= 0.0) continue;
-    extremes_.min_px =
-        extremes_.min_px > 0.0 ? std::min(extremes_.min_px, scale.min_px) : scale.min_px;
-    extremes_.max_px = std::max(extremes_.max_px, scale.max_px);
+  for (int row = 0; row < kCells; ++row) {
+    for (int column = 0; column < kCells; ++column) {
+      const double x = (column + 0.5) / cells_per_column_ - 0.5;
+      const double y = (row + 0.5) / cells_per_row_ - 0.5;
+      const AngularScale scale = scale_at(model, {x, y});
+      cells_[cell(column, row)] = scale;
+      if (scale.max_px <= 0.0) continue;
+      extremes_.min_px =
+          extremes_.min_px > 0.0 ? std::min(extremes_.min_px, scale.min_px) : scale.min_px;
+      extremes_.max_px = std::max(extremes_.max_px, scale.max_px);
+    }
   }
 }
 
@@ -43,7 +45,7 @@ const AngularScale& Optics::at(const Eigen::Vector2d& pixel) const {
   const int column =
       std::clamp(static_cast<int>((pixel.x() + 0.5) * cells_per_column_), 0, kCells - 1);
   const int row = std::clamp(static_cast<int>((pixel.y() + 0.5) * cells_per_row_), 0, kCells - 1);
-  return cells_[static_cast<std::size_t>(row * kCells + column)];
+  return cells_[cell(column, row)];
 }
 
 }  // namespace dottrack::geometry

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 
 #include "app/core/geometry/camera_model.h"
 
@@ -31,6 +32,10 @@ class Optics {
 
  private:
   static constexpr int kCells = 32;
+
+  static constexpr std::size_t cell(int column, int row) {
+    return static_cast<std::size_t>(row) * kCells + static_cast<std::size_t>(column);
+  }
 
   std::array<AngularScale, static_cast<std::size_t>(kCells* kCells)> cells_{};
   AngularScale extremes_;

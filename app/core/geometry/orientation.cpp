@@ -44,7 +44,7 @@ bool spans_a_plane(Points points) {
   if (points.size() < 3) return false;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(scatter(points, points),
                                                        Eigen::EigenvaluesOnly);
-  const Vector3d spread2 = solver.eigenvalues();
+  const Vector3d& spread2 = solver.eigenvalues();
   return spread2[1] > kMinSpreadRatio2 * spread2[2];
 }
 
@@ -52,7 +52,7 @@ OrientationStatus absolute_orientation(Points body, Points world, RigidMotion& m
   if (body.size() < 3 || body.size() != world.size()) return OrientationStatus::too_few_points;
   if (!spans_a_plane(body) || !spans_a_plane(world)) return OrientationStatus::degenerate;
   const Eigen::SelfAdjointEigenSolver<Matrix4d> solver(quaternion_form(scatter(body, world)));
-  const Eigen::Vector4d values = solver.eigenvalues();
+  const Eigen::Vector4d& values = solver.eigenvalues();
   if (!(values[3] - values[2] > kMinEigenGap * values[3])) return OrientationStatus::degenerate;
   const Eigen::Vector4d q = solver.eigenvectors().col(3);
   motion.rotation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
