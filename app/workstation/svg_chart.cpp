@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dottrack::workstation {
 namespace {
@@ -15,6 +16,7 @@ constexpr double kLeft_px = 70.0;
 constexpr double kRight_px = 20.0;
 constexpr double kTop_px = 46.0;
 constexpr double kBottom_px = 52.0;
+constexpr double kRounding = 1e-9;  // of numbers of steps
 
 struct Range {
   double low = 0.0;
@@ -26,21 +28,27 @@ struct Range {
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else
-      out += c;
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      default:
+        out += c;
+    }
   }
   return out;
 }
 
 // Of all finite points along one axis; [0, 1] without any.
 Range range_of(const Chart& chart, int axis) {
-  Range range{INFINITY, -INFINITY};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Range range{kInfinity, -kInfinity};
   for (const Series& series : chart.series) {
     for (const Vector2d& p : series.points) {
       if (!p.allFinite()) continue;
@@ -103,8 +111,10 @@ class Plot {
 
   void grid(const Range& range, bool along_x) {
     const double step = round_step(range.size(), along_x ? 11 : 6);
-    for (double v = std::ceil(range.low / step) * step; v <= range.high; v += step) {
-      const double value = std::abs(v) < 1e-9 * step ? 0.0 : v;
+    const long first = std::lround(std::ceil(range.low / step - kRounding));
+    const long last = std::lround(std::floor(range.high / step + kRounding));
+    for (long i = first; i <= last; ++i) {
+      const double value = static_cast<double>(i) * step;
       const double x0 = along_x ? x_px(value) : kLeft_px;
       const double x1 = along_x ? x0 : kLeft_px + kWidth_px;
       const double y0 = along_x ? top_px_ + kTop_px : y_px(value);
@@ -113,10 +123,11 @@ class Plot {
           fmt::format("<line x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}' stroke='#e4e4e4'/>\n",
                       x0, y0, x1, y1);
       const std::string number = fmt::format("{:.6g}", value);
-      if (along_x)
+      if (along_x) {
         label(x0, y1 + 16.0, "middle", "11", number);
-      else
+      } else {
         label(kLeft_px - 6.0, y0 + 4.0, "end", "11", number);
+      }
     }
   }
 
@@ -181,7 +192,7 @@ double round_step(double range, int most) {
   const double rough = range / most;
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
   for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= rough * (1.0 - 1e-9)) return factor * power;
+    if (factor * power >= rough * (1.0 - kRounding)) return factor * power;
   }
   return 10.0 * power;
 }
