@@ -128,13 +128,13 @@ void CameraView::Memory::paint(std::span<const Actor> bodies, double weight) {
 
 // Blurs anew what was touched and the tiles around, which the blur reaches into.
 void CameraView::Memory::blur_touched() {
-  const int columns = stage.tiles.columns();
-  const int rows = stage.tiles.rows();
-  const auto tiles = stage.tiles.tiles();
+  const TileIndex& tiles = stage.tiles;
+  const int columns = tiles.columns();
+  const int rows = tiles.rows();
   const auto near_touched = [&](int column, int row) {
     for (int r = std::max(row - 1, 0); r <= std::min(row + 1, rows - 1); ++r) {
       for (int c = std::max(column - 1, 0); c <= std::min(column + 1, columns - 1); ++c) {
-        if (touched[static_cast<std::size_t>(r * columns + c)]) return true;
+        if (touched[tiles.index(c, r)]) return true;
       }
     }
     return false;
@@ -142,9 +142,9 @@ void CameraView::Memory::blur_touched() {
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       if (!near_touched(column, row)) continue;
-      PixelBox run = tiles[static_cast<std::size_t>(row * columns + column)].box;
+      PixelBox run = tiles.tiles()[tiles.index(column, row)].box;
       while (column + 1 < columns && near_touched(column + 1, row)) ++column;
-      run.x1 = tiles[static_cast<std::size_t>(row * columns + column)].box.x1;
+      run.x1 = tiles.tiles()[tiles.index(column, row)].box.x1;
       blur(light, run, sensor.model().blur_sigma_px, blurred);
     }
   }

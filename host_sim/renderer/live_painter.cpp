@@ -75,10 +75,13 @@ bool LivePainter::clear_of_hall(const Actor& body, const LampLight& lamp) const 
   const Vector3d& low = body.scene->low();
   const Vector3d half = 0.5 * (body.scene->high() - low);
   const Pose& pose = body.pose(stage_.camera.height_px() / 2);
-  for (int i = 0; i < 27; ++i) {
+  for (int i = 0; i < 9; ++i) {
+    const int row = i / 3;
     // The lowest are off what the body stands on.
-    const Vector3d at = low + half.cwiseProduct(Vector3d(i % 3, i / 3 % 3, 0.1 + 0.95 * (i / 9)));
-    if (stage_.hall.scene->blocked(pose.to_world(at), lamp.points[0]) != 0U) return false;
+    for (const double height : {0.1, 1.05, 2.0}) {
+      const Vector3d at = low + half.cwiseProduct(Vector3d(i % 3, row, height));
+      if (stage_.hall.scene->blocked(pose.to_world(at), lamp.points[0]) != 0U) return false;
+    }
   }
   return true;
 }

@@ -30,8 +30,10 @@ class LivePainter {
 
  private:
   static std::size_t block_of(const Tile& tile, int x, int y) {
-    return static_cast<std::size_t>((y - tile.box.y0) / kBlock_px * 2 +
-                                    (x - tile.box.x0) / kBlock_px);
+    const int row = (y - tile.box.y0) / kBlock_px;
+    const int column = (x - tile.box.x0) / kBlock_px;
+    const int block = 2 * row + column;
+    return static_cast<std::size_t>(block);
   }
 
   using Points = std::array<Eigen::Vector3d, 4>;

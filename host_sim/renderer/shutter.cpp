@@ -9,6 +9,7 @@ namespace dottrack::host_sim {
 std::vector<double> row_times(const Exposure& exposure, double line_time_s, int rows) {
   if (!(line_time_s > 0.0)) return {exposure.middle_s};
   std::vector<double> times;
+  times.reserve(static_cast<std::size_t>(rows));
   for (int row = 0; row < rows; ++row) {
     times.push_back(exposure.middle_s + (row - 0.5 * (rows - 1)) * line_time_s);
   }

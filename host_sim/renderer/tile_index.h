@@ -2,6 +2,7 @@
 // A picture in tiles of 16 x 16 pixels: which of them a body or its shadow may touch.
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,11 @@ class TileIndex {
   std::span<const Tile> tiles() const { return tiles_; }
   int columns() const { return columns_; }
   int rows() const { return static_cast<int>(tiles_.size()) / columns_; }
+  // Where among the tiles.
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
 
  private:
   int columns_;

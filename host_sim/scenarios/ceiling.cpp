@@ -41,6 +41,7 @@ Spot at_end(const CeilingOptions& options, double side) {
 
 std::vector<Spot> spots(const CeilingOptions& options) {
   std::vector<Spot> all;
+  all.reserve(static_cast<std::size_t>(options.cameras));
   const int at_ends = options.cameras >= 6 ? 2 : 0;
   const int left = (options.cameras - at_ends + 1) / 2;
   const int right = options.cameras - at_ends - left;

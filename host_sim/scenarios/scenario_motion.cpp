@@ -192,6 +192,7 @@ class MotionReader {
     Drive drive = made_of(
         [=](const Terrain& terrain) {
           std::vector<Pose> poses;
+          poses.reserve(places.size());
           for (const auto& [at, yaw] : places) poses.push_back(placed_on(terrain, at, yaw));
           return survey_places(std::move(poses), dwell);
         },
@@ -208,7 +209,7 @@ class MotionReader {
  private:
   Vector2d place(std::string_view key) {
     const std::vector<double> v = reader_.numbers(key, 2, std::nullopt, kPlace);
-    const Vector2d at(v[0], v[1]);
+    Vector2d at(v[0], v[1]);
     if (!on_grounds(grounds_, at)) complain_outside(reader_, reader_.line(key), at, grounds_);
     return at;
   }

@@ -46,6 +46,7 @@ std::vector<std::size_t> drawn(const SimCamera& camera, std::size_t index,
   std::sort(lots.begin(), lots.end());
   if (lots.size() > options.dots_per_camera) lots.resize(options.dots_per_camera);
   std::vector<std::size_t> chosen;
+  chosen.reserve(lots.size());
   for (const auto& [lot, dot] : lots) chosen.push_back(dot);
   return chosen;
 }
