@@ -97,9 +97,11 @@ Model make_tool_chest(std::uint64_t seed) {
   const double height_m = random.uniform(0.7, 1.1);
   add(chest, box({0.0, 0.0, 0.5 * (height_m + 0.1)}, {0.72, 0.46, height_m - 0.1}),
       painted(random, 0.10, 0.35));
-  for (double z = 0.2; z < height_m - 0.1; z += 0.14) {
+  double z = 0.2;
+  while (z < height_m - 0.1) {
     add(chest, box({0.0, -0.24, z + 0.09}, {0.60, 0.025, 0.018}), kSteel);
     add(chest, box({0.0, -0.231, z + 0.02}, {0.70, 0.004, 0.008}), kBlack);
+    z += 0.14;
   }
   for (const double x : {-0.3, 0.3}) {
     for (const double y : {-0.18, 0.18}) {
@@ -135,7 +137,9 @@ Model make_raised_floor(std::uint64_t seed) {
   Model platform;
   const int missing = static_cast<int>(random.uniform() * 12.0);
   for (int tile = 0; tile < 12; ++tile) {
-    const Vector3d middle(0.6 * (tile % 4) - 0.9, 0.6 * (tile / 4) - 0.6, 0.28);
+    const int column = tile % 4;
+    const int row = tile / 4;
+    const Vector3d middle(0.6 * column - 0.9, 0.6 * row - 0.6, 0.28);
     add(platform,
         stump({middle.x() - 0.3, middle.y() - 0.3, 0.0}, Vector3d::UnitZ(), 0.26, 0.05, 0.03, 8),
         kSteel);

@@ -103,8 +103,10 @@ void add_duct(Model& hall, const Vector3d& from, const Vector3d& to, double radi
   const Vector3d along = (to - from).normalized();
   const double length_m = (to - from).norm();
   add(hall, cylinder(from, along, length_m, radius_m, 24), kMetal);
-  for (double at = 0.6; at < length_m; at += 1.8) {
-    add(hall, cylinder(from + at * along, along, 0.05, radius_m + 0.02, 24), kFrame);
+  double at_m = 0.6;
+  while (at_m < length_m) {
+    add(hall, cylinder(from + at_m * along, along, 0.05, radius_m + 0.02, 24), kFrame);
+    at_m += 1.8;
   }
 }
 

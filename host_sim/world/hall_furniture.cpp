@@ -40,16 +40,20 @@ void place(Model& hall, GroundPlan& plan, const Piece& piece, const Vector2d& at
 void furnish_aisles(Model& hall, const HallSite& site, GroundPlan& plan, RandomStream& random) {
   const double reach = 0.38;  // from the wall to the middle of a piece
   const double north = site.north_m() - reach;
-  for (double x = site.west_m() + 0.7; x < site.half_length_m(); x += random.uniform(0.15, 0.5)) {
+  double x = site.west_m() + 0.7;
+  while (x < site.half_length_m()) {
     const Piece left = against_wall(random);
     const Piece right = against_wall(random);
     place(hall, plan, left, {x, north}, random.uniform(-0.06, 0.06));
     place(hall, plan, right, {x, -north}, kPi + random.uniform(-0.06, 0.06));
+    x += random.uniform(0.15, 0.5);
   }
   const double west = site.west_m() + reach;
-  for (double y = -site.half_width_m(); y < site.half_width_m(); y += random.uniform(0.2, 0.6)) {
+  double y = -site.half_width_m();
+  while (y < site.half_width_m()) {
     const Piece piece = against_wall(random);
     place(hall, plan, piece, {west, y}, 0.5 * kPi + random.uniform(-0.06, 0.06));
+    y += random.uniform(0.2, 0.6);
   }
 }
 

@@ -85,8 +85,10 @@ double white_radiance(std::span<const Lamp> lamps, std::string_view group, const
     const Vector3d facing = lamp.half_u_m.cross(lamp.half_v_m).normalized();
     radiance += lamp.bounce;
     for (int i = 0; i < kAcross * kAcross; ++i) {
-      const double u = (2 * (i % kAcross) + 1.0) / kAcross - 1.0;
-      const double v = (2 * (i / kAcross) + 1.0) / kAcross - 1.0;
+      const int column = i % kAcross;
+      const int row = i / kAcross;
+      const double u = (2 * column + 1.0) / kAcross - 1.0;
+      const double v = (2 * row + 1.0) / kAcross - 1.0;
       const Vector3d to = lamp.position_m + u * lamp.half_u_m + v * lamp.half_v_m - p;
       const double received = std::max(normal.dot(to), 0.0) * std::max(-facing.dot(to), 0.0);
       radiance +=

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host_sim/world/noise.h"
 
@@ -31,7 +32,10 @@ double beyond(double v, double low, double high) {
 }  // namespace
 
 Terrain::Terrain(double length_m, double width_m, std::uint64_t seed, std::optional<Ramp> ramp)
-    : half_length_m_(0.5 * length_m), half_width_m_(0.5 * width_m), seed_(seed), ramp_(ramp) {
+    : half_length_m_(0.5 * length_m),
+      half_width_m_(0.5 * width_m),
+      seed_(seed),
+      ramp_(std::move(ramp)) {
   if (ramp_) ramp_forward_ = {cosine(ramp_->heading_rad), sine(ramp_->heading_rad)};
 }
 
