@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "renderer_bench.h"
+#include "tests/unit/host_sim/renderer_bench.h"
 
 namespace dottrack::host_sim {
 namespace {

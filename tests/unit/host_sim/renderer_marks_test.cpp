@@ -5,7 +5,7 @@
 #include <string>
 
 #include "host_sim/world/random.h"
-#include "renderer_bench.h"
+#include "tests/unit/host_sim/renderer_bench.h"
 
 namespace dottrack::host_sim {
 namespace {

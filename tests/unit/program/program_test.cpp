@@ -46,9 +46,11 @@ void expect_wrong_use(const std::string& arguments, const std::string& line) {
 }
 
 TEST(Program, AnswersWrongUseWithOneLineAndStatus2) {
-  expect_wrong_use("", "no command; expected one of replay, demo, camera");
-  expect_wrong_use("fly", "unknown command \"fly\"; expected one of replay, demo, camera");
-  expect_wrong_use("--fly", "unknown command \"--fly\"; expected one of replay, demo, camera");
+  expect_wrong_use("", "no command; expected one of replay, sim, experiments, camera");
+  expect_wrong_use("fly",
+                   "unknown command \"fly\"; expected one of replay, sim, experiments, camera");
+  expect_wrong_use("--fly",
+                   "unknown command \"--fly\"; expected one of replay, sim, experiments, camera");
   expect_wrong_use("camera project", "MODEL is required; see dottrack camera project --help");
   expect_wrong_use("replay rig.toml --out o", "--frames is required; see dottrack replay --help");
 }
@@ -64,7 +66,7 @@ TEST(Program, HelpsOnStandardOutput) {
   const Outcome outcome = dottrack("--help");
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.err, "");
-  for (const char* command : {"replay", "demo", "camera"}) {
+  for (const char* command : {"replay", "sim", "experiments", "camera"}) {
     EXPECT_THAT(outcome.out, HasSubstr(command));
   }
 }

@@ -292,5 +292,37 @@ TEST(TrackerTargets, OfThreeToEightDotsLock) {
   }
 }
 
+// Camera 0 is frozen: it shows all dots where they were, and would be believed.
+TEST_F(TrackerTest, APictureThatNoLongerChangesIsLeftOut) {
+  lock();
+  PaintedRoom frozen = room_;
+  for (int i = 1; i <= 5; ++i) {
+    const Pose pose = PaintedRoom::pose_at(4.0 + 0.03 * i, 3.0, 0.3);
+    show(pose);
+    auto frames = room_.frames();
+    frames[0] = frozen.frames()[0];
+    const TickResult& result = tracker_.step(frames);
+    expect_locked(result, pose);
+    EXPECT_TRUE(result.cameras[0].stale) << i;
+    EXPECT_FALSE(result.cameras[0].used) << i;
+    EXPECT_FALSE(result.cameras[1].stale) << i;
+  }
+  const Pose pose = PaintedRoom::pose_at(4.18, 3.0, 0.3);
+  show(pose);
+  const TickResult& result = tracker_.step(room_.frames());
+  expect_locked(result, pose);
+  EXPECT_TRUE(result.cameras[0].used);
+}
+
+// A still recording that is shown for a while says nothing about its cameras.
+TEST_F(TrackerTest, WhenNoPictureChangesNoneIsLeftOut) {
+  lock();
+  for (int i = 0; i < 3; ++i) {
+    const TickResult& result = tracker_.step(room_.frames());
+    expect_locked(result, middle_);
+    EXPECT_FALSE(result.cameras[0].stale);
+  }
+}
+
 }  // namespace
 }  // namespace dottrack::core
