@@ -59,7 +59,7 @@ Range range_of(const Chart& chart, int axis) {
   if (range.low > range.high) return {};
   if (axis == 1 && chart.y_from_zero) range.low = std::min(range.low, 0.0);
   if (range.size() <= 0.0) return {range.low - 0.5, range.high + 0.5};
-  const double margin = axis == 1 ? 0.06 * range.size() : 0.0;
+  const double margin = (axis == 1 ? 0.06 : chart.equal_scales ? 0.03 : 0.0) * range.size();
   const bool at_zero = axis == 1 && chart.y_from_zero && range.low == 0.0;
   return {range.low - (at_zero ? 0.0 : margin), range.high + margin};
 }

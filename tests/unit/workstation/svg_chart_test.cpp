@@ -46,8 +46,8 @@ TEST(SvgChart, KeepsAMapsScales) {
   const Chart chart{.series = {{"", "#000", Style::line, {{0, 0}, {10, 0}, {10, 5}, {0, 5}}}},
                     .equal_scales = true};
   const std::string text = svg(std::array{chart});
-  // The y range is widened by a margin of 6 % on both sides.
-  EXPECT_THAT(text, HasSubstr("width='860' height='481.6'"));
+  // The ranges are widened on both sides, x by 3 % and y by 6 %.
+  EXPECT_THAT(text, HasSubstr("width='860' height='454.3'"));
 }
 
 TEST(SvgChart, PutsChartsOneBelowTheOther) {
