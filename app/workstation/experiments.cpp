@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "app/workstation/loop_files.h"
 #include "app/workstation/sim_run.h"
 #include "app/workstation/trials.h"
 #include "host_sim/scenarios/scenario_file.h"
@@ -107,6 +108,7 @@ class Runner {
 }  // namespace
 
 Result<Experiments> run_experiments(const ExperimentOptions& options) {
+  if (const auto made = make_folder(options.out); !made) return tl::unexpected<Error>(made.error());
   Experiments all;
   Runner runner(options);
   auto done = runner.scenario("survey_grid", [&](Models m, const Scene& scene, const auto& run) {

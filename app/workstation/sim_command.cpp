@@ -11,6 +11,7 @@
 
 #include "app/workstation/exit_status.h"
 #include "app/workstation/interrupt.h"
+#include "app/workstation/loop_files.h"
 #include "app/workstation/progress.h"
 #include "app/workstation/sim_run.h"
 #include "app/workstation/trials.h"
@@ -149,6 +150,10 @@ int run(const SimCommand& command) {
   fmt::print("{}: {} ({} cameras, {} dots, seed {})\n", scene->name, scene->description,
              scene->cameras.size(), scene->target.size(), scene->seed);
   std::fflush(stdout);
+  // Before the hall is rendered, which takes seconds.
+  if (const auto made = make_folder(command.out); !made) {
+    return complain(made.error().message, kWrongUse);
+  }
   return command.acquisitions == 0 ? run_scene(*scene, command) : run_placements(*scene, command);
 }
 

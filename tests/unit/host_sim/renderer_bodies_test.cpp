@@ -218,9 +218,10 @@ TEST(RendererBodiesTest, PicturesDoNotDependOnWhatWasRenderedBefore) {
   const std::vector<MovingBody> bodies = {one.body(), two.body()};
   CameraView forth(hall, overhead(), sensor);
   CameraView back(hall, overhead(), sensor);
-  std::vector<GreyImage> forwards;
-  for (int i = 0; i < 4; ++i)
-    forwards.push_back(picture(forth, bodies, plan, {.middle_s = 0.5 * i}));
+  std::vector<GreyImage> forwards(4);
+  for (std::size_t i = 0; i < forwards.size(); ++i) {
+    forwards[i] = picture(forth, bodies, plan, {.middle_s = 0.5 * static_cast<double>(i)});
+  }
   for (int i = 3; i >= 0; --i) {
     const GreyImage again = picture(back, bodies, plan, {.middle_s = 0.5 * i});
     EXPECT_EQ(again.pixels(), forwards[static_cast<std::size_t>(i)].pixels()) << i;

@@ -95,7 +95,9 @@ TEST(SurveyTest, TheFitIsOffAsLeastSquaresSays) {
     double off = 0.0;
     int fits = 0;
     RandomStream random(8, 8);
-    const auto noise = [&] { return double{normal_deviates()[random.word() & 0xFFFFU]}; };
+    const auto noise = [&] {
+      return static_cast<double>(normal_deviates()[random.word() & 0xFFFFU]);
+    };
     for (int repeat = 0; repeat < 8; ++repeat) {
       for (const SimCamera& truth : ceiling(kind)) {
         std::vector<Sighting> sightings;
