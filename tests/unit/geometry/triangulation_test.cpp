@@ -15,6 +15,7 @@ using Eigen::Vector3d;
 
 std::vector<SightLine> lines_to(const Vector3d& point, const std::vector<Vector3d>& origins) {
   std::vector<SightLine> lines;
+  lines.reserve(origins.size());
   for (const Vector3d& origin : origins) {
     lines.push_back({{origin, (point - origin).normalized()}, 1e-3});
   }
@@ -70,8 +71,10 @@ TEST(Triangulation, IsTheAppendixWithInverseSquareRangeWeights) {
     }
     const Vector3d first = appendix_solution(lines, {1.0, 1.0, 1.0, 1.0});
     std::vector<double> weights;
-    for (const SightLine& line : lines)
+    weights.reserve(lines.size());
+    for (const SightLine& line : lines) {
       weights.push_back(1.0 / (first - line.ray.origin).squaredNorm());
+    }
     Triangulation result;
     ASSERT_EQ(triangulate(lines, result), TriangulationStatus::ok);
     EXPECT_NEAR((result.point_m - appendix_solution(lines, weights)).norm(), 0.0, 1e-10);
