@@ -74,6 +74,7 @@ class Runner {
       const auto run = simulate(*scene, renderer, sim);
       if (!run) return tl::unexpected<Error>(run.error());
       if (!run->loop.output_fault.empty()) return fail(run->loop.output_fault);
+      if (run->rows.size() < run->ticks_asked) return stopped();
       keep(models, *scene, *run);
     }
     return {};
@@ -94,12 +95,17 @@ class Runner {
       };
       const auto run = run_trials(*scene, renderer, trials);
       if (!run) return tl::unexpected<Error>(run.error());
+      if (run->trials.size() < trials.count) return stopped();
       figures.push_back(acquisition_figures(dots, run->trials));
     }
     return {};
   }
 
  private:
+  static tl::unexpected<Error> stopped() {
+    return fail("stopped before the experiments were done");
+  }
+
   bool go_on(const std::string& what) const { return !options_.go_on || options_.go_on(what); }
 
   const ExperimentOptions& options_;

@@ -76,7 +76,7 @@ struct ExperimentOptions {
   std::filesystem::path out;
   std::uint64_t placements = 40;  // for each number of dots
   unsigned threads = 0;           // for rendering; 0: as many as the machine has
-  // Called with what is being done now; false ends the experiments.
+  // Called with what is being done now; false ends the experiments with an error.
   std::function<bool(const std::string&)> go_on;
 };
 

@@ -37,8 +37,9 @@ int run(ExperimentOptions options) {
   };
   const auto experiments = run_experiments(options);
   if (on_terminal) fmt::print(stderr, "\r\x1b[K");
-  if (!experiments) return complain(experiments.error().message, kWrongUse);
-  if (Interrupt::wanted()) return complain("stopped before the experiments were done", kFailed);
+  if (!experiments) {
+    return complain(experiments.error().message, Interrupt::wanted() ? kFailed : kWrongUse);
+  }
   const std::string table = table_of(*experiments);
   fmt::print("{}", table);
   if (const auto done = write_file(options.out / "experiments.md", table); !done) {
