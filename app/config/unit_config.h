@@ -1,0 +1,89 @@
+#pragma once
+// What a rig file says of the unit that it is flashed onto: devices, wiring, priorities. A
+// workstation reads and checks it, and makes no use of it.
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "hal/base/camera_set.h"
+#include "hal/base/time.h"
+
+namespace dottrack::config {
+
+// One line of a GPIO chip, which goes by label, name or path.
+struct LineConfig {
+  std::string chip;
+  unsigned line = 0;
+  bool active_low = false;
+
+  bool operator==(const LineConfig&) const = default;
+};
+
+// A P-iris: a stepper that turns the blades between two end stops.
+struct IrisConfig {
+  std::string chip;
+  unsigned step_line = 0;
+  unsigned direction_line = 0;
+  std::optional<unsigned> enable_line;
+  std::optional<unsigned> auto_line;      // active: the unit overrides the lens's auto-iris
+  std::optional<unsigned> end_stop_line;  // input, active at the closed end; without it the motor
+                                          // is driven against the stop for its whole travel
+  int travel_steps = 0;                   // from closed to fully open
+  double steps_per_s = 100.0;
+  int backlash_steps = 0;
+  std::array<double, 2> limits{0.0, 1.0};  // openings it may be sent to
+  double opening = 1.0;                    // where it goes at start
+
+  bool operator==(const IrisConfig&) const = default;
+};
+
+struct CameraUnitConfig {
+  std::string device;  // libcamera id; empty off the board
+  double exposure_ms = 4.0;
+  double gain = 1.0;
+  double stamp_offset_ms = 0.0;  // added to what the driver takes for the middle of the exposure
+  std::optional<IrisConfig> iris;
+
+  bool operator==(const CameraUnitConfig&) const = default;
+};
+
+struct CanConfig {
+  std::string interface = "can0";
+  std::uint32_t base_id = 0x300;  // of the first pose frame
+
+  bool operator==(const CanConfig&) const = default;
+};
+
+struct LoopConfig {
+  int priority = 80;       // SCHED_FIFO, 1 to 99
+  std::optional<int> cpu;  // that the loop has for itself
+  std::string watchdog;    // device; empty: only the service manager watches
+  double watchdog_s = 10.0;
+
+  bool operator==(const LoopConfig&) const = default;
+};
+
+struct RecordingConfig {
+  std::filesystem::path folder;
+  bool frames = false;         // the images too, as a replay reads them
+  double min_free_mb = 200.0;  // of the disk that stay free
+
+  bool operator==(const RecordingConfig&) const = default;
+};
+
+struct UnitConfig {
+  std::array<CameraUnitConfig, kMaxCameras> cameras;  // in the rig's order
+  CanConfig can;
+  std::optional<LineConfig> trigger;  // absent: the cameras run freely
+  std::optional<LineConfig> lamp;
+  LoopConfig loop;
+  std::optional<RecordingConfig> recording;
+
+  bool operator==(const UnitConfig&) const = default;
+};
+
+}  // namespace dottrack::config

@@ -1,0 +1,59 @@
+#pragma once
+// P-irises on GPIO lines: step, direction, enable, auto-iris override, end stop.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/base/result.h"
+#include "hal/iris.h"
+#include "rtos_shim/clock.h"
+
+namespace dottrack::drivers {
+
+struct IrisWiring {
+  std::string name;  // of the camera, for messages and consumers
+  std::string chip;  // label, name or path
+  unsigned step_line = 0;
+  unsigned direction_line = 0;  // active: opens
+  std::optional<unsigned> enable_line;
+  std::optional<unsigned> auto_line;      // active: overrides the lens's auto-iris
+  std::optional<unsigned> end_stop_line;  // input, active at the closed end
+  int travel_steps = 0;                   // from closed to fully open
+  double steps_per_s = 100.0;
+  int backlash_steps = 0;
+  std::array<double, 2> limits{0.0, 1.0};  // openings it may be sent to
+};
+
+// Requests come from the loop and are lock-free; the steps are made by advance(), which a thread of
+// its own calls at every step_period(). An iris homes against its closed end before its first
+// movement. Nothing allocates after open().
+class GpioIris final : public hal::Iris {
+ public:
+  // One entry a camera; a camera without an iris has none. An error names camera, chip, line.
+  static Result<std::unique_ptr<GpioIris>> open(std::vector<std::optional<IrisWiring>> irises,
+                                                const rtos::Clock& clock);
+  // Gives every lens back to its auto-iris and takes the current off the motors.
+  ~GpioIris() override;
+
+  // Half the time between two steps of the fastest iris: how often advance() is due.
+  Duration step_period() const;
+  void advance(Time now);
+
+  // Steps made so far, homing included; from any thread.
+  std::uint64_t steps(std::size_t camera) const;
+
+ private:
+  class Motors;
+  explicit GpioIris(std::unique_ptr<Motors> motors);
+  bool do_move_to(std::size_t camera, double opening) override;
+  bool do_release_to_auto(std::size_t camera) override;
+  hal::IrisState do_state(std::size_t camera) const override;
+
+  std::unique_ptr<Motors> motors_;
+};
+
+}  // namespace dottrack::drivers
