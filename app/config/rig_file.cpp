@@ -15,6 +15,7 @@
 #include "app/config/table_reader.h"
 #include "app/config/target_file.h"
 #include "app/config/text_file.h"
+#include "app/config/unit_reader.h"
 
 namespace dottrack::config {
 namespace {
@@ -55,11 +56,14 @@ class RigReader {
   }
 
   void read_root(const toml::table& root) {
-    TableReader reader(complaint_, root, "the rig file", {"rig", "camera", "target", "tracking"});
+    TableReader reader(
+        complaint_, root, "the rig file",
+        {"rig", "camera", "target", "tracking", "can", "trigger", "lamp", "loop", "recording"});
     if (const auto* table = find_table(root, "rig", false)) read_rig(*table);
     read_cameras(root);
     if (const auto* table = find_table(root, "target", true)) read_target(*table);
     if (const auto* table = find_table(root, "tracking", false)) read_tracking(*table);
+    read_unit(complaint_, root, config_.unit);
     if (complaint_.empty()) load_files();
   }
 
@@ -101,14 +105,15 @@ class RigReader {
   }
 
   void read_camera(const toml::table& table) {
-    TableReader reader(complaint_, table, "[[camera]]",
-                       {"name", "model", "device", "distance_m", "intensity_dn", "min_contrast_dn",
-                        "background_px", "polarity"});
+    TableReader reader(
+        complaint_, table, "[[camera]]",
+        {"name", "model", "distance_m", "intensity_dn", "min_contrast_dn", "background_px",
+         "polarity", "device", "exposure_ms", "gain", "stamp_offset_ms", "iris"});
     CameraEntry entry;
     entry.name = reader.text("name");
     check_camera_name(reader, entry.name);
     entry.model_path = beside_rig(reader.text("model"));
-    entry.device = reader.text("device", "");
+    config_.unit.cameras[config_.cameras.size()] = read_camera_unit(complaint_, reader);
     config_.cameras.push_back(std::move(entry));
     config_.rig.cameras.push_back(read_camera_limits(reader));
     name_lines_.push_back(reader.line("name"));

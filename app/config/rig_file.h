@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "app/config/unit_config.h"
 #include "app/core/rig.h"
 #include "hal/base/result.h"
 
 namespace dottrack::config {
 
 struct CameraEntry {
-  std::string name;    // unique in the rig
-  std::string device;  // libcamera id; empty off the board
+  std::string name;  // unique in the rig
   std::filesystem::path model_path;
 };
 
@@ -22,6 +22,7 @@ struct RigConfig {
   std::vector<CameraEntry> cameras;  // in the order of rig.cameras
   std::string target_name = "target";
   core::Rig rig;
+  UnitConfig unit;
 };
 
 // An unknown key, a missing file, a unit that makes no sense or a degenerate target is an error

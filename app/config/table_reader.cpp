@@ -125,14 +125,18 @@ double TableReader::number(std::string_view key, std::optional<double> fallback,
   return value.value_or(rule.at_most);
 }
 
-int TableReader::integer(std::string_view key, int fallback, const IntegerRule& rule) {
+int TableReader::integer(std::string_view key, std::optional<int> fallback,
+                         const IntegerRule& rule) {
   return static_cast<int>(whole_number(key, fallback, rule));
 }
 
-std::int64_t TableReader::whole_number(std::string_view key, std::int64_t fallback,
+std::int64_t TableReader::whole_number(std::string_view key, std::optional<std::int64_t> fallback,
                                        const IntegerRule& rule) {
   const toml::node* node = table_.get(key);
-  if (node == nullptr) return fallback;
+  if (node == nullptr) {
+    if (!fallback) complain_missing(key, rule.expected);
+    return fallback.value_or(rule.at_least);
+  }
   const auto value = as_integer(*node);
   if (value && obeys(rule, *value)) return *value;
   if (value) {
@@ -140,7 +144,7 @@ std::int64_t TableReader::whole_number(std::string_view key, std::int64_t fallba
   } else {
     complain_type(key, rule.expected);
   }
-  return fallback;
+  return fallback.value_or(rule.at_least);
 }
 
 const toml::array* TableReader::two_elements(std::string_view key, std::string_view expected) {
@@ -155,11 +159,13 @@ const toml::array* TableReader::two_elements(std::string_view key, std::string_v
   return list;
 }
 
-std::pair<double, double> TableReader::number_range(std::string_view key, const NumberRule& rule) {
+std::pair<double, double> TableReader::number_range(
+    std::string_view key, const NumberRule& rule,
+    std::optional<std::pair<double, double>> fallback) {
   const std::pair<double, double> nothing{};
   if (!table_.contains(key)) {
-    complain_missing(key, rule.expected);
-    return nothing;
+    if (!fallback) complain_missing(key, rule.expected);
+    return fallback.value_or(nothing);
   }
   const toml::array* list = two_elements(key, rule.expected);
   if (list == nullptr) return nothing;

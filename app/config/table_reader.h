@@ -53,8 +53,9 @@ class TableReader {
   std::string text(std::string_view key, const std::optional<std::string>& fallback = std::nullopt);
   bool boolean(std::string_view key, bool fallback);
   double number(std::string_view key, std::optional<double> fallback, const NumberRule& rule);
-  int integer(std::string_view key, int fallback, const IntegerRule& rule);
-  std::int64_t whole_number(std::string_view key, std::int64_t fallback, const IntegerRule& rule);
+  int integer(std::string_view key, std::optional<int> fallback, const IntegerRule& rule);
+  std::int64_t whole_number(std::string_view key, std::optional<std::int64_t> fallback,
+                            const IntegerRule& rule);
 
   // One of `words`, by its place among them; the first without the key.
   std::size_t choice(std::string_view key, Words words);
@@ -63,7 +64,9 @@ class TableReader {
   }
 
   // Two numbers [low, high], each within the rule; low < high.
-  std::pair<double, double> number_range(std::string_view key, const NumberRule& rule);
+  std::pair<double, double> number_range(
+      std::string_view key, const NumberRule& rule,
+      std::optional<std::pair<double, double>> fallback = std::nullopt);
   // Two whole numbers [low, high], each within the rule; low <= high.
   std::pair<int, int> integer_range(std::string_view key, std::pair<int, int> fallback,
                                     const IntegerRule& rule);

@@ -51,6 +51,13 @@ struct CameraUnitConfig {
   bool operator==(const CameraUnitConfig&) const = default;
 };
 
+struct TriggerConfig {
+  LineConfig line;
+  bool cameras_follow = true;  // false: the line pulses, but the cameras run freely
+
+  bool operator==(const TriggerConfig&) const = default;
+};
+
 struct CanConfig {
   std::string interface = "can0";
   std::uint32_t base_id = 0x300;  // of the first pose frame
@@ -78,7 +85,7 @@ struct RecordingConfig {
 struct UnitConfig {
   std::array<CameraUnitConfig, kMaxCameras> cameras;  // in the rig's order
   CanConfig can;
-  std::optional<LineConfig> trigger;  // absent: the cameras run freely
+  std::optional<TriggerConfig> trigger;  // absent: the cameras run freely
   std::optional<LineConfig> lamp;
   LoopConfig loop;
   std::optional<RecordingConfig> recording;

@@ -37,9 +37,9 @@ TEST(RigFile, ReadsEveryKeyOfACamera) {
   ASSERT_EQ(config.cameras.size(), 2U);
   ASSERT_EQ(config.rig.cameras.size(), 2U);
   EXPECT_EQ(config.cameras[0].name, "cam1");
-  EXPECT_EQ(config.cameras[0].device, "");
+  EXPECT_EQ(config.unit.cameras[0].device, "");
   EXPECT_EQ(config.cameras[1].name, "cam-2_b");
-  EXPECT_EQ(config.cameras[1].device, "/base/i2c/imx296@1");
+  EXPECT_EQ(config.unit.cameras[1].device, "/base/i2c/imx296@1");
   EXPECT_EQ(config.cameras[1].model_path, folder.path() / "models/cam2.cahv");
   const core::Camera& camera = config.rig.cameras[0];
   EXPECT_EQ(camera.width_px, 640);
@@ -76,7 +76,7 @@ TEST(RigFile, HasADefaultForEveryKeyThatMayBeMissing) {
   EXPECT_EQ(config.rig.limits.max_rms_residual_m, 0.02);
   EXPECT_EQ(config.rig.limits.lost_after_ticks, 5);
   const core::Camera& camera = config.rig.cameras[1];
-  EXPECT_EQ(config.cameras[1].device, "");
+  EXPECT_EQ(config.unit.cameras[1].device, "");
   EXPECT_EQ(camera.intensity_min_dn, 0);
   EXPECT_EQ(camera.intensity_max_dn, 255);
   EXPECT_EQ(config.rig.cameras[0].min_contrast_dn, 0);
