@@ -14,6 +14,8 @@
 
 namespace dottrack::drivers {
 
+class LineBanks;
+
 struct IrisWiring {
   std::string name;  // of the camera, for messages and consumers
   std::string chip;  // label, name or path
@@ -30,17 +32,25 @@ struct IrisWiring {
 
 // Requests come from the loop and are lock-free; the steps are made by advance(), which a thread of
 // its own calls at every step_period(). An iris homes against its closed end before its first
-// movement. Nothing allocates after open().
+// movement, and again when its auto-iris was in charge in between. One whose end stop contradicts
+// its position, or whose lines cannot be driven, stands still and is unhealthy until it is given
+// back to its auto-iris. Nothing allocates after open().
 class GpioIris final : public hal::Iris {
  public:
   // One entry a camera; a camera without an iris has none. An error names camera, chip, line.
   static Result<std::unique_ptr<GpioIris>> open(std::vector<std::optional<IrisWiring>> irises,
                                                 const rtos::Clock& clock);
+  // The same over other banks than the kernel's.
+  static Result<std::unique_ptr<GpioIris>> open(std::vector<std::optional<IrisWiring>> irises,
+                                                const rtos::Clock& clock, LineBanks& banks);
   // Gives every lens back to its auto-iris and takes the current off the motors.
   ~GpioIris() override;
 
-  // Half the time between two steps of the fastest iris: how often advance() is due.
+  // Half the time between two steps of the fastest iris and a fiftieth more, so that a wake-up a
+  // little early misses no step: how often advance() is due.
   Duration step_period() const;
+  // By one thread. Reads each chip's inputs and writes its outputs with one call each, and only
+  // where there is something to do. A late call makes the irises slower, never faster.
   void advance(Time now);
 
   // Steps made so far, homing included; from any thread.

@@ -10,6 +10,8 @@
 
 namespace dottrack::drivers {
 
+class LineBanks;
+
 struct GpioLine {
   std::string chip;  // label, name or path of a chip
   unsigned offset = 0;
@@ -22,6 +24,10 @@ class GpioOutputLine final : public hal::OutputLine {
   // `consumer` is what gpioinfo shows. An error names chip, line and reason.
   static Result<std::unique_ptr<GpioOutputLine>> open(const GpioLine& line,
                                                       const std::string& consumer);
+  // The same over other banks than the kernel's.
+  static Result<std::unique_ptr<GpioOutputLine>> open(const GpioLine& line,
+                                                      const std::string& consumer,
+                                                      LineBanks& banks);
   ~GpioOutputLine() override;
 
  private:

@@ -1,0 +1,148 @@
+// Lines through libgpiod 2.x: one request holds outputs and inputs, each with settings of its own.
+
+#include <gpiod.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "drivers/libgpiod/line_bank.h"
+
+namespace dottrack::drivers::gpiod {
+namespace {
+
+template <auto kRelease>
+struct Release {
+  template <class T>
+  void operator()(T* object) const {
+    kRelease(object);
+  }
+};
+using Chip = std::unique_ptr<gpiod_chip, Release<gpiod_chip_close>>;
+using ChipInfo = std::unique_ptr<gpiod_chip_info, Release<gpiod_chip_info_free>>;
+using LineInfo = std::unique_ptr<gpiod_line_info, Release<gpiod_line_info_free>>;
+using LineSettings = std::unique_ptr<gpiod_line_settings, Release<gpiod_line_settings_free>>;
+using LineConfig = std::unique_ptr<gpiod_line_config, Release<gpiod_line_config_free>>;
+using RequestConfig = std::unique_ptr<gpiod_request_config, Release<gpiod_request_config_free>>;
+using LineRequest = std::unique_ptr<gpiod_line_request, Release<gpiod_line_request_release>>;
+
+gpiod_line_value value_of(bool active) {
+  return active ? GPIOD_LINE_VALUE_ACTIVE : GPIOD_LINE_VALUE_INACTIVE;
+}
+
+struct Offsets {
+  explicit Offsets(const std::vector<BankLine>& lines) : count(lines.size()) {
+    for (std::size_t i = 0; i < count; ++i) offsets[i] = lines[i].offset;
+  }
+  std::array<unsigned, kMaxBankLines> offsets{};
+  std::size_t count;
+};
+
+using Values = std::array<gpiod_line_value, kMaxBankLines>;
+
+class Bank final : public LineBank {
+ public:
+  Bank(LineRequest request, const BankRequest& lines)
+      : request_(std::move(request)), outputs_(lines.outputs), inputs_(lines.inputs) {}
+
+ private:
+  bool do_set(std::uint64_t mask, std::uint64_t values) override {
+    std::array<unsigned, kMaxBankLines> offsets{};
+    Values wanted{};
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < outputs_.count; ++i) {
+      if (((mask >> i) & 1U) == 0) continue;
+      offsets[count] = outputs_.offsets[i];
+      wanted[count] = value_of(((values >> i) & 1U) != 0);
+      ++count;
+    }
+    return count == 0 || gpiod_line_request_set_values_subset(request_.get(), count, offsets.data(),
+                                                              wanted.data()) == 0;
+  }
+
+  std::optional<std::uint64_t> do_inputs() override {
+    if (inputs_.count == 0) return 0;
+    Values read{};
+    if (gpiod_line_request_get_values_subset(request_.get(), inputs_.count, inputs_.offsets.data(),
+                                             read.data()) != 0) {
+      return std::nullopt;
+    }
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < inputs_.count; ++i) {
+      bits |= std::uint64_t{read[i] == GPIOD_LINE_VALUE_ACTIVE} << i;
+    }
+    return bits;
+  }
+
+  LineRequest request_;
+  Offsets outputs_;
+  Offsets inputs_;
+};
+
+std::optional<std::string> user_of(gpiod_chip* chip, unsigned offset) {
+  const LineInfo info(gpiod_chip_get_line_info(chip, offset));
+  if (!info || !gpiod_line_info_is_used(info.get())) return std::nullopt;
+  const char* consumer = gpiod_line_info_get_consumer(info.get());
+  return consumer == nullptr ? "the kernel" : consumer;
+}
+
+bool add_line(gpiod_line_config* config, const BankLine& line, gpiod_line_direction direction) {
+  const LineSettings settings(gpiod_line_settings_new());
+  if (!settings) return false;
+  gpiod_line_settings_set_active_low(settings.get(), line.active_low);
+  return gpiod_line_settings_set_direction(settings.get(), direction) == 0 &&
+         gpiod_line_settings_set_bias(settings.get(), GPIOD_LINE_BIAS_AS_IS) == 0 &&
+         gpiod_line_settings_set_output_value(settings.get(), value_of(line.active)) == 0 &&
+         gpiod_line_config_add_line_settings(config, &line.offset, 1, settings.get()) == 0;
+}
+
+LineConfig line_config(const BankRequest& request) {
+  LineConfig config(gpiod_line_config_new());
+  bool added = config != nullptr;
+  for (const BankLine& line : request.outputs) {
+    added = added && add_line(config.get(), line, GPIOD_LINE_DIRECTION_OUTPUT);
+  }
+  for (const BankLine& line : request.inputs) {
+    added = added && add_line(config.get(), line, GPIOD_LINE_DIRECTION_INPUT);
+  }
+  return added ? std::move(config) : nullptr;
+}
+
+tl::unexpected<Error> chip_error(const std::string& path) {
+  return fail("GPIO chip " + path + ": cannot be opened: " + std::strerror(errno));
+}
+
+tl::unexpected<Error> request_error(const BankRequest& request) {
+  const BankLine& first =
+      request.outputs.empty() ? request.inputs.front() : request.outputs.front();
+  return fail(line_name(request, first) +
+              " and its neighbours cannot be requested: " + std::strerror(errno));
+}
+
+}  // namespace
+
+Result<GpioChip> read_chip(const std::string& path) {
+  const Chip chip(gpiod_chip_open(path.c_str()));
+  if (!chip) return chip_error(path);
+  const ChipInfo info(gpiod_chip_get_info(chip.get()));
+  if (!info) return chip_error(path);
+  return GpioChip{path, gpiod_chip_info_get_label(info.get()),
+                  static_cast<unsigned>(gpiod_chip_info_get_num_lines(info.get()))};
+}
+
+Result<std::unique_ptr<LineBank>> request_lines(const BankRequest& request) {
+  const Chip chip(gpiod_chip_open(request.chip.path.c_str()));
+  if (!chip) return chip_error(request.chip.path);
+  const Result<void> sound =
+      check_lines(request, [&](unsigned offset) { return user_of(chip.get(), offset); });
+  if (!sound) return tl::unexpected(sound.error());
+  const RequestConfig config(gpiod_request_config_new());
+  const LineConfig lines = line_config(request);
+  if (!config || !lines) return request_error(request);
+  gpiod_request_config_set_consumer(config.get(), request.consumer.c_str());
+  LineRequest granted(gpiod_chip_request_lines(chip.get(), config.get(), lines.get()));
+  if (!granted) return request_error(request);
+  return std::make_unique<Bank>(std::move(granted), request);
+}
+
+}  // namespace dottrack::drivers::gpiod
