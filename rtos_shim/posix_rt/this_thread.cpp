@@ -21,9 +21,9 @@ tl::unexpected<Error> fail_in(const ThreadSettings& settings, const std::string&
 
 Result<void> take_name(const ThreadSettings& settings) {
   const std::string& name = settings.name;
-  if (name.empty() || name.size() > kMaxNameLength) {
+  if (name.size() > kMaxNameLength) {
     return fail_in(settings, "its name has " + std::to_string(name.size()) +
-                                 " characters; expected 1 to " + std::to_string(kMaxNameLength));
+                                 " characters; expected at most " + std::to_string(kMaxNameLength));
   }
   pthread_setname_np(pthread_self(), name.c_str());
   std::array<char, kMaxNameLength + 1> taken{};
