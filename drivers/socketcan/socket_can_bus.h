@@ -25,9 +25,15 @@ struct SocketCanCounts {
   std::uint64_t failed = 0;        // interface down, bus off or gone
   std::uint64_t error_frames = 0;  // told by the controller
   std::uint64_t bus_offs = 0;
-  std::uint64_t recoveries = 0;  // times it could send again after bus-off, down or gone
+  std::uint64_t recoveries = 0;   // times it could send again after bus-off, down or gone
+  std::uint64_t overwritten = 0;  // received, and nobody came for them in time
 };
 
+class CanChannel;
+
+// One thread sends, receives and asks for the state. Bus-off, down and gone are survived without
+// reopening; after bus-off the kernel restarts the controller if the interface has a restart-ms.
+// Frames that wait in the kernel are few, so that none goes out long after its deadline.
 class SocketCanBus final : public hal::CanBus {
  public:
   // An error names the interface and what is wrong: no such interface, not CAN, no permission, no
@@ -35,20 +41,18 @@ class SocketCanBus final : public hal::CanBus {
   // it comes up.
   static Result<std::unique_ptr<SocketCanBus>> open(const SocketCanSettings& settings,
                                                     const rtos::Clock& clock);
+  explicit SocketCanBus(std::unique_ptr<CanChannel> channel);  // for tests: over any descriptor
   ~SocketCanBus() override;
 
   // From any thread.
   SocketCanCounts counts() const;
 
  private:
-  class Port;
-  explicit SocketCanBus(std::unique_ptr<Port> port);
-
   hal::SendResult do_send(const hal::CanFrame& frame, Time deadline) override;
   bool do_receive(hal::CanFrame& frame) override;
   hal::CanState do_state() const override;
 
-  std::unique_ptr<Port> port_;
+  std::unique_ptr<CanChannel> channel_;
 };
 
 struct CanInterface {
