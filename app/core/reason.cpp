@@ -36,6 +36,8 @@ std::string_view to_string(Reason reason) {
       return "work_budget";
     case Reason::ambiguous:
       return "ambiguous";
+    case Reason::stopped:
+      return "stopped";
   }
   return "unknown";
 }

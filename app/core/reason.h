@@ -23,6 +23,7 @@ enum class Reason : std::uint8_t {
   step_too_large = 11,       // a dot moved further than max_step_m (3.2.3)
   work_budget = 12,          // acquisition's bound of work was reached
   ambiguous = 13,            // as good a match by chance, or another labelling as good
+  stopped = 14,              // the unit was told to stop: the last message it sends
 };
 
 // One word each: "tracking"; "too_few_regions".

@@ -56,17 +56,18 @@ void Cycle::tick(const rtos::Wake& wake) {
   telemetry::StageTimes& took = record_.stages;
   Lap lap(parts_.stopwatch);
   record_.due = wake.due;
+  record_.woke = parts_.clock.now();
   record_.counters.deadline_misses += wake.missed;
 
   const hal::FrameSet& frames = capture(wake.due);
   took.capture = lap.next();
-  const core::TickResult& result = track(frames);
+  track(frames);
   took.track = lap.next();
-  broadcast(result);
+  broadcast();
   took.broadcast = lap.next();
   expose();
   took.expose = lap.next();
-  record(result);
+  record();
   took.record = lap.next();
 }
 
@@ -75,12 +76,16 @@ const hal::FrameSet& Cycle::capture(Time due) {
   return parts_.grabber.await(CameraSet::first(settings_.cameras), due + settings_.frame_deadline);
 }
 
-const core::TickResult& Cycle::track(const hal::FrameSet& frames) {
+void Cycle::track(const hal::FrameSet& frames) {
   for (std::size_t i = 0; i < settings_.cameras; ++i) {
     const hal::Frame& frame = frames.frames[i];
     frames_[i] = {frames.delivered.contains(i), frame.image, frame.mid_exposure};
   }
-  const core::TickResult& result = parts_.tracker.step(frames_);
+  core::TickResult& result = record_.result;
+  result = tracker_->step(frames_);
+  result.tick = ticks_++;
+  result.reset_count += resets_before_;
+  keep(frames);
   parts_.grabber.release();
 
   bool any = false;
@@ -89,16 +94,25 @@ const core::TickResult& Cycle::track(const hal::FrameSet& frames) {
     if (!result.cameras[i].delivered) ++record_.counters.missing_frames[i];
   }
   record_.stamp = any ? result.capture_time : record_.due;
-  return result;
+}
+
+void Cycle::keep(const hal::FrameSet& frames) {
+  if (parts_.frames == nullptr) return;
+  if (parts_.frames->try_push(record_.result.tick, parts_.clock.now(), frames)) return;
+  ++record_.counters.frames_dropped;
+}
+
+void Cycle::broadcast() {
+  send(pose_message(record_.result, record_.stamp), record_.due + settings_.send_deadline);
+  record_.sent = parts_.clock.now();
 }
 
 // A group that is cut short is of no use to anyone: after the first frame that does not go out, the
 // others stay at home.
-void Cycle::broadcast(const core::TickResult& result) {
-  const Time deadline = record_.due + settings_.send_deadline;
+void Cycle::send(const protocol::PoseMessage& message, Time deadline) {
   telemetry::CycleCounters& counters = record_.counters;
   for (const protocol::PoseFrame& frame :
-       protocol::encode(pose_message(result, record_.stamp), settings_.can_base_id, group_++)) {
+       protocol::encode(message, settings_.can_base_id, group_++)) {
     const hal::SendResult sent = parts_.can.send(can_frame(frame), deadline);
     if (sent == hal::SendResult::accepted) continue;
     ++(sent == hal::SendResult::try_again ? counters.sends_without_room : counters.sends_failed);
@@ -115,9 +129,25 @@ void Cycle::expose() {
   }
 }
 
-void Cycle::record(const core::TickResult& result) {
-  record_.result = result;
+void Cycle::record() {
+  const bool tracking = record_.result.state == core::State::tracking;
+  if (parts_.lamp != nullptr) parts_.lamp->set(tracking || record_.result.tick % 2 == 0);
+  if (parts_.watchdog != nullptr) parts_.watchdog->kick();
   if (!parts_.records.try_push(record_)) ++record_.counters.records_dropped;
+}
+
+void Cycle::use(core::Tracker& tracker) {
+  resets_before_ = record_.result.reset_count;
+  tracker_ = &tracker;
+}
+
+void Cycle::farewell(Time now) {
+  for (std::size_t i = 0; i < settings_.cameras; ++i) parts_.iris.release_to_auto(i);
+  if (parts_.lamp != nullptr) parts_.lamp->set(false);
+  core::TickResult last;
+  last.reason = core::Reason::stopped;
+  last.reset_count = record_.result.reset_count;
+  send(pose_message(last, now), now + settings_.send_deadline);
 }
 
 }  // namespace dottrack::cycle

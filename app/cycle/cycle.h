@@ -7,12 +7,15 @@
 
 #include "app/core/protocol/pose_message.h"
 #include "app/core/tracker.h"
+#include "app/telemetry/frame_ring.h"
 #include "app/telemetry/recorder.h"
 #include "hal/can_bus.h"
 #include "hal/frame_grabber.h"
 #include "hal/iris.h"
+#include "hal/output_line.h"
 #include "rtos_shim/clock.h"
 #include "rtos_shim/periodic_timer.h"
+#include "rtos_shim/watchdog.h"
 
 namespace dottrack::cycle {
 
@@ -37,6 +40,10 @@ struct CycleParts {
   const rtos::Clock& clock;
   const rtos::Clock& stopwatch;
   telemetry::RecordRing& records;
+  // Only a unit has these.
+  telemetry::FrameRing* frames = nullptr;  // takes copies of the images
+  hal::OutputLine* lamp = nullptr;         // lit: tracking; blinking: looking for the target
+  rtos::Watchdog* watchdog = nullptr;      // kicked by every tick
 };
 
 // The same on the board and on a workstation: one call a wake-up. It allocates nothing, throws
@@ -44,21 +51,33 @@ struct CycleParts {
 class Cycle {
  public:
   Cycle(const CycleParts& parts, const CycleSettings& settings)
-      : parts_(parts), settings_(settings) {}
+      : parts_(parts), tracker_(&parts.tracker), settings_(settings) {}
 
   void tick(const rtos::Wake& wake);
 
+  // Between two ticks: another tracker for the same cameras from now on. Locks are counted on.
+  void use(core::Tracker& tracker);
+
+  // After the last tick: the lenses back to their own control, the lamp off, and one more message
+  // on CAN that says that there is no pose and why.
+  void farewell(Time now);
+
  private:
   const hal::FrameSet& capture(Time due);
-  const core::TickResult& track(const hal::FrameSet& frames);
-  void broadcast(const core::TickResult& result);
+  void track(const hal::FrameSet& frames);
+  void keep(const hal::FrameSet& frames);
+  void broadcast();
+  void send(const protocol::PoseMessage& message, Time deadline);
   void expose();
-  void record(const core::TickResult& result);
+  void record();
 
   CycleParts parts_;
+  core::Tracker* tracker_;
   CycleSettings settings_;
   std::array<core::CameraFrame, kMaxCameras> frames_{};
   std::uint64_t group_ = 0;  // binds the frames of a pose message
+  std::uint64_t ticks_ = 0;
+  std::uint32_t resets_before_ = 0;  // locks of the trackers before this one
   telemetry::CycleRecord record_;
 };
 

@@ -29,11 +29,14 @@ struct CycleCounters {
   std::uint64_t sends_without_room = 0;
   std::uint64_t sends_failed = 0;
   std::uint64_t records_dropped = 0;  // the recorder was too slow
+  std::uint64_t frames_dropped = 0;   // so was who keeps the images
 };
 
 struct CycleRecord {
   Time due{};    // the instant of the grid that the tick belongs to
+  Time woke{};   // when the tick began
   Time stamp{};  // mid-exposure; without any frame, the instant itself
+  Time sent{};   // when the last of the tick's CAN frames was handed over
   core::TickResult result;
   StageTimes stages;
   CycleCounters counters;

@@ -7,10 +7,10 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/telemetry/output_file.h"
 #include "app/workstation/exit_status.h"
 #include "app/workstation/experiments.h"
 #include "app/workstation/interrupt.h"
-#include "app/workstation/output_file.h"
 
 namespace dottrack::workstation {
 namespace {
@@ -42,7 +42,7 @@ int run(ExperimentOptions options) {
   }
   const std::string table = table_of(*experiments);
   fmt::print("{}", table);
-  if (const auto done = write_file(options.out / "experiments.md", table); !done) {
+  if (const auto done = telemetry::write_file(options.out / "experiments.md", table); !done) {
     return complain(done.error().message, kFailed);
   }
   return any_wrong(*experiments) ? kFailed : kDone;

@@ -18,9 +18,9 @@ Result<void> make_folder(const fs::path& folder) {
 
 Result<LoopFiles> open_loop_files(const fs::path& out, std::unique_ptr<rtos::VirtualClock> clock) {
   if (const auto made = make_folder(out); !made) return tl::unexpected<Error>(made.error());
-  Result<OutputFile> tum = OutputFile::create(out / "poses.tum");
+  Result<telemetry::OutputFile> tum = telemetry::OutputFile::create(out / "poses.tum");
   if (!tum) return tl::unexpected<Error>(tum.error());
-  Result<OutputFile> csv = OutputFile::create(out / "poses.csv");
+  Result<telemetry::OutputFile> csv = telemetry::OutputFile::create(out / "poses.csv");
   if (!csv) return tl::unexpected<Error>(csv.error());
   auto can = drivers::CandumpCanBus::open(out / "can.log", *clock);
   if (!can) return tl::unexpected<Error>(can.error());

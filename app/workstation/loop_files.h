@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/workstation/output_file.h"
+#include "app/telemetry/output_file.h"
 #include "drivers/candump/candump_can_bus.h"
 #include "hal/base/result.h"
 #include "rtos_shim/virtual_time/virtual_clock.h"
@@ -14,8 +14,8 @@ namespace dottrack::workstation {
 
 struct LoopFiles {
   std::filesystem::path out;
-  OutputFile tum;
-  OutputFile csv;
+  telemetry::OutputFile tum;
+  telemetry::OutputFile csv;
   std::unique_ptr<rtos::VirtualClock> clock;
   std::unique_ptr<drivers::CandumpCanBus> can_log;  // on that clock
 };

@@ -67,7 +67,7 @@ RunSummary LoopRun::finish(RunFacts facts) {
   facts.allocations_in_loop = heap_calls_;
   facts.allocation_trap_complete = AllocationTrap::is_complete();
   facts.tracker_bytes = tracker_.footprint_bytes();
-  note(write_file(files_.out / "report.json", report_json(config_, tally_, facts)));
+  note(telemetry::write_file(files_.out / "report.json", report_json(config_, tally_, facts)));
   draw("");
   return summary(facts);
 }
@@ -84,7 +84,7 @@ Result<void> LoopRun::write_pictures(const fs::path& folder) const {
                                         tally_.last_record().result, tracker_.regions(i)});
     const Result<std::string> png = canvas.png();
     if (!png) return tl::unexpected<Error>(png.error());
-    if (auto done = write_file(folder / (name + ".png"), *png); !done) return done;
+    if (auto done = telemetry::write_file(folder / (name + ".png"), *png); !done) return done;
   }
   return {};
 }

@@ -12,9 +12,9 @@
 #include "app/config/rig_file.h"
 #include "app/core/tracker.h"
 #include "app/cycle/cycle.h"
+#include "app/telemetry/pose_files.h"
 #include "app/telemetry/recorder.h"
 #include "app/workstation/loop_files.h"
-#include "app/workstation/pose_files.h"
 #include "app/workstation/report_file.h"
 #include "app/workstation/run_summary.h"
 #include "app/workstation/run_tally.h"
@@ -69,8 +69,8 @@ class LoopRun {
   std::unique_ptr<telemetry::RecordRing> ring_;
   cycle::Cycle cycle_;
   telemetry::Recorder recorder_;
-  TumWriter tum_;
-  CsvWriter csv_;
+  telemetry::TumWriter tum_;
+  telemetry::CsvWriter csv_;
   RunTally tally_;
   std::uint64_t heap_calls_ = 0;
   std::string fault_;

@@ -1,7 +1,7 @@
 # What `dottrack replay` is made of, beside its command. Links the allocation trap into the program.
 find_package(PNG REQUIRED)
 dottrack_library(workstation_outputs
-  SOURCES output_file.cpp tum_writer.cpp csv_writer.cpp run_tally.cpp report_file.cpp canvas.cpp
+  SOURCES run_tally.cpp report_file.cpp canvas.cpp
           bitmap_font.cpp overlay.cpp
   USES dottrack::config dottrack::core dottrack::telemetry fmt::fmt PNG::PNG)
 target_compile_definitions(dottrack_workstation_outputs PRIVATE

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "app/telemetry/output_file.h"
 #include "app/workstation/loop_files.h"
-#include "app/workstation/output_file.h"
 #include "app/workstation/svg_chart.h"
 
 namespace dottrack::workstation {
@@ -122,7 +122,7 @@ Result<void> write_plots(std::span<const TruthRow> rows, const FloorPlan& plan,
                          const std::filesystem::path& folder) {
   if (auto made = make_folder(folder); !made) return made;
   const auto write = [&](const char* name, std::span<const Chart> charts) {
-    return write_file(folder / name, svg(charts));
+    return telemetry::write_file(folder / name, svg(charts));
   };
   if (auto done = write("path.svg", std::array{path_chart(rows, plan)}); !done) return done;
   if (auto done = write("errors.svg", error_charts(rows)); !done) return done;

@@ -68,7 +68,7 @@ std::vector<std::pair<std::string, std::string>> truth_members(const Scene& scen
 class Simulation {
  public:
   Simulation(const Scene& scene, host_sim::SceneRenderer& renderer, const SimOptions& options,
-             const config::RigConfig& config, LoopFiles files, OutputFile truth_tum)
+             const config::RigConfig& config, LoopFiles files, telemetry::OutputFile truth_tum)
       : scene_(scene),
         options_(options),
         period_(period_of(config)),
@@ -150,7 +150,7 @@ class Simulation {
   host_sim::SimIris iris_;
   host_sim::SimFrameGrabber grabber_;
   host_sim::SimCanBus can_;
-  OutputFile truth_tum_;
+  telemetry::OutputFile truth_tum_;
   TruthRecord truth_;
   LoopRun loop_;
   std::unique_ptr<host_sim::FrameRecorder> recorder_;
@@ -174,7 +174,8 @@ Result<SimSummary> simulate(const Scene& scene, host_sim::SceneRenderer& rendere
   }
   const Result<config::RigConfig> config = config::load_rig(rig / "rig.toml");
   if (!config) return tl::unexpected<Error>(config.error());
-  Result<OutputFile> truth_tum = OutputFile::create(options.out / "truth.tum");
+  Result<telemetry::OutputFile> truth_tum =
+      telemetry::OutputFile::create(options.out / "truth.tum");
   if (!truth_tum) return tl::unexpected<Error>(truth_tum.error());
   Simulation simulation(scene, renderer, options, *config, std::move(*files),
                         std::move(*truth_tum));

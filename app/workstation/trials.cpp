@@ -10,8 +10,8 @@
 
 #include "app/config/rig_file.h"
 #include "app/core/tracker.h"
+#include "app/telemetry/output_file.h"
 #include "app/workstation/loop_files.h"
-#include "app/workstation/output_file.h"
 #include "app/workstation/truth_record.h"
 #include "host_sim/scenarios/body_scenes.h"
 #include "host_sim/scenarios/placements.h"
@@ -142,7 +142,8 @@ TrialSummary summary_of(const std::vector<Trial>& trials, bool lockable) {
 Result<TrialRun> run_trials(const Scene& scene, host_sim::SceneRenderer& renderer,
                             const TrialOptions& options) {
   if (const auto made = make_folder(options.out); !made) return tl::unexpected<Error>(made.error());
-  Result<OutputFile> csv = OutputFile::create(options.out / "acquisitions.csv");
+  Result<telemetry::OutputFile> csv =
+      telemetry::OutputFile::create(options.out / "acquisitions.csv");
   if (!csv) return tl::unexpected<Error>(csv.error());
   const auto rig = options.out / "rig";
   if (auto done = host_sim::write_rig(scene, rig); !done)

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/workstation/pose_files.h"
+#include "app/telemetry/pose_files.h"
 
 namespace dottrack::workstation {
 namespace {
@@ -94,7 +94,7 @@ void TruthRecord::do_write(const telemetry::CycleRecord& record) {
 }
 
 void TruthRecord::write_line(Time stamp, const TruePose& truth) {
-  file_.write(tum_line(stamp, truth.position_m, truth.orientation));
+  file_.write(telemetry::tum_line(stamp, truth.position_m, truth.orientation));
 }
 
 }  // namespace dottrack::workstation

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "app/core/tick_result.h"
+#include "app/telemetry/output_file.h"
 #include "app/telemetry/recorder.h"
-#include "app/workstation/output_file.h"
 
 namespace dottrack::workstation {
 
@@ -74,7 +74,8 @@ Accuracy accuracy_of(std::span<const TruthRow> rows);
 // Keeps a row a tick and writes the truth, `t x y z qx qy qz qw`, for the ticks that have one.
 class TruthRecord final : public telemetry::RecordWriter {
  public:
-  TruthRecord(OutputFile& truth_tum, Truth truth) : file_(truth_tum), truth_(std::move(truth)) {}
+  TruthRecord(telemetry::OutputFile& truth_tum, Truth truth)
+      : file_(truth_tum), truth_(std::move(truth)) {}
 
   const std::vector<TruthRow>& rows() const { return rows_; }
 
@@ -82,7 +83,7 @@ class TruthRecord final : public telemetry::RecordWriter {
   void do_write(const telemetry::CycleRecord& record) override;
   void write_line(Time stamp, const TruePose& truth);
 
-  OutputFile& file_;
+  telemetry::OutputFile& file_;
   Truth truth_;
   std::vector<TruthRow> rows_;
 };

@@ -14,8 +14,8 @@
 #include "tests/sim/small_scenario.h"
 #include "tests/support/program_run.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text_of.h"
 #include "tests/unit/workstation/json_check.h"
-#include "tests/unit/workstation/text_of.h"
 
 namespace dottrack::workstation {
 namespace {

@@ -10,8 +10,8 @@
 #include "app/workstation/replay_command.h"
 #include "tests/support/program_run.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text_of.h"
 #include "tests/unit/workstation/json_check.h"
-#include "tests/unit/workstation/text_of.h"
 
 namespace dottrack::workstation {
 

@@ -3,11 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/unit/telemetry/record_of.h"
 #include "tests/unit/workstation/json_check.h"
-#include "tests/unit/workstation/record_of.h"
 
 namespace dottrack::workstation {
 namespace {
+
+using telemetry::record_with_pose;
+using telemetry::record_without_pose;
 
 config::RigConfig rig() {
   config::RigConfig config;

@@ -3,10 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/unit/workstation/record_of.h"
+#include "tests/unit/telemetry/record_of.h"
 
 namespace dottrack::workstation {
 namespace {
+
+using telemetry::record_with_pose;
+using telemetry::record_without_pose;
 
 using std::chrono::microseconds;
 using testing::Pair;

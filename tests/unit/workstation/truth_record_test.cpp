@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "tests/support/temporary_folder.h"
-#include "tests/unit/workstation/text_of.h"
+#include "tests/support/text_of.h"
 
 namespace dottrack::workstation {
 namespace {
@@ -68,7 +68,7 @@ TEST(PoseErrorTest, FarOffIsAWrongLock) {
 
 TEST(TruthRecordTest, KeepsARowATickAndWritesTheTruth) {
   const test::TemporaryFolder folder;
-  auto file = OutputFile::create(folder.path() / "truth.tum");
+  auto file = telemetry::OutputFile::create(folder.path() / "truth.tum");
   ASSERT_TRUE(file);
   // The vehicle is there in the first half second only.
   TruthRecord truth(*file, [](Time time) -> std::optional<TruePose> {

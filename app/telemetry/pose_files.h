@@ -7,34 +7,34 @@
 #include <string>
 #include <vector>
 
+#include "app/telemetry/output_file.h"
 #include "app/telemetry/recorder.h"
-#include "app/workstation/output_file.h"
 
-namespace dottrack::workstation {
+namespace dottrack::telemetry {
 
 // `t x y z qx qy qz qw`, seconds and metres, nine decimals each, with a line's end.
 std::string tum_line(Time stamp, const Eigen::Vector3d& position_m,
                      const Eigen::Quaterniond& orientation);
 
 // One line a tick that has a pose.
-class TumWriter final : public telemetry::RecordWriter {
+class TumWriter final : public RecordWriter {
  public:
   explicit TumWriter(OutputFile& file) : file_(file) {}
 
  private:
-  void do_write(const telemetry::CycleRecord& record) override;
+  void do_write(const CycleRecord& record) override;
 
   OutputFile& file_;
 };
 
 // One line a tick, with a header. Times of the machine are not in it: the same images give the same
 // bytes.
-class CsvWriter final : public telemetry::RecordWriter {
+class CsvWriter final : public RecordWriter {
  public:
   CsvWriter(OutputFile& file, std::vector<std::string> cameras, std::size_t dots);
 
  private:
-  void do_write(const telemetry::CycleRecord& record) override;
+  void do_write(const CycleRecord& record) override;
 
   OutputFile& file_;
   std::vector<std::string> cameras_;
@@ -42,4 +42,4 @@ class CsvWriter final : public telemetry::RecordWriter {
   std::string line_;
 };
 
-}  // namespace dottrack::workstation
+}  // namespace dottrack::telemetry

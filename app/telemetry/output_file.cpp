@@ -1,4 +1,4 @@
-#include "app/workstation/output_file.h"
+#include "app/telemetry/output_file.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-namespace dottrack::workstation {
+namespace dottrack::telemetry {
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,9 +43,14 @@ void OutputFile::write(std::string_view bytes) {
   }
 }
 
-Result<void> OutputFile::finish() {
+Result<void> OutputFile::flush() {
   if (!failed() && std::fflush(file_.get()) != 0) first_errno_ = errno;
   if (failed()) return cannot_write(path_, first_errno_);
+  return {};
+}
+
+Result<void> OutputFile::finish() {
+  if (auto flushed = flush(); !flushed) return flushed;
   file_.reset();
   std::error_code error;
   fs::rename(part_of(path_), path_, error);
@@ -60,4 +65,4 @@ Result<void> write_file(const fs::path& path, std::string_view bytes) {
   return file->finish();
 }
 
-}  // namespace dottrack::workstation
+}  // namespace dottrack::telemetry

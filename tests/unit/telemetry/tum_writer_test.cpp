@@ -1,12 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/workstation/pose_files.h"
+#include "app/telemetry/pose_files.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/unit/workstation/record_of.h"
-#include "tests/unit/workstation/text_of.h"
+#include "tests/support/text_of.h"
+#include "tests/unit/telemetry/record_of.h"
 
-namespace dottrack::workstation {
+namespace dottrack::telemetry {
 namespace {
 
 TEST(TumWriter, WritesATickWithAPoseAndLeavesOutTheOthers) {
@@ -23,4 +23,4 @@ TEST(TumWriter, WritesATickWithAPoseAndLeavesOutTheOthers) {
 }
 
 }  // namespace
-}  // namespace dottrack::workstation
+}  // namespace dottrack::telemetry

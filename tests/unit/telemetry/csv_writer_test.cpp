@@ -4,12 +4,12 @@
 #include <map>
 #include <set>
 
-#include "app/workstation/pose_files.h"
+#include "app/telemetry/pose_files.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/unit/workstation/record_of.h"
-#include "tests/unit/workstation/text_of.h"
+#include "tests/support/text_of.h"
+#include "tests/unit/telemetry/record_of.h"
 
-namespace dottrack::workstation {
+namespace dottrack::telemetry {
 namespace {
 
 using Row = std::map<std::string, std::string>;
@@ -100,4 +100,4 @@ TEST_F(CsvFile, ATickWithoutAPoseHasItsReasonAndEmptyFields) {
 }
 
 }  // namespace
-}  // namespace dottrack::workstation
+}  // namespace dottrack::telemetry

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <utility>
 
-#include "app/workstation/pose_files.h"
+#include "app/telemetry/pose_files.h"
 
-namespace dottrack::workstation {
+namespace dottrack::telemetry {
 namespace {
 
 using core::AcquisitionCounts;
@@ -37,7 +37,7 @@ class Line {
   std::string& text_;
 };
 
-void write_time(const telemetry::CycleRecord& record, Line& line) {
+void write_time(const CycleRecord& record, Line& line) {
   const std::int64_t ns = record.stamp.time_since_epoch().count();
   line << record.result.tick << fmt::format("{}.{:09}", ns / 1000000000, ns % 1000000000);
 }
@@ -135,7 +135,7 @@ CsvWriter::CsvWriter(OutputFile& file, std::vector<std::string> cameras, std::si
   file_.write(header(cameras_, dots_));
 }
 
-void CsvWriter::do_write(const telemetry::CycleRecord& record) {
+void CsvWriter::do_write(const CycleRecord& record) {
   const TickResult& result = record.result;
   Line line(line_);
   write_time(record, line);
@@ -154,4 +154,4 @@ void CsvWriter::do_write(const telemetry::CycleRecord& record) {
   file_.write(line_);
 }
 
-}  // namespace dottrack::workstation
+}  // namespace dottrack::telemetry

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "app/workstation/pose_files.h"
+#include "app/telemetry/pose_files.h"
 
-namespace dottrack::workstation {
+namespace dottrack::telemetry {
 
 std::string tum_line(Time stamp, const Eigen::Vector3d& p, const Eigen::Quaterniond& q) {
   const std::int64_t ns = stamp.time_since_epoch().count();
@@ -10,10 +10,10 @@ std::string tum_line(Time stamp, const Eigen::Vector3d& p, const Eigen::Quaterni
                      ns % 1000000000, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
 }
 
-void TumWriter::do_write(const telemetry::CycleRecord& record) {
+void TumWriter::do_write(const CycleRecord& record) {
   if (!record.result.has_pose) return;
   file_.write(
       tum_line(record.stamp, record.result.pose.position_m, record.result.pose.orientation));
 }
 
-}  // namespace dottrack::workstation
+}  // namespace dottrack::telemetry

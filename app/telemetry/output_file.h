@@ -8,7 +8,7 @@
 
 #include "hal/base/result.h"
 
-namespace dottrack::workstation {
+namespace dottrack::telemetry {
 
 // Writes beside the file, to a name with `.part` added; finish() gives it its name. An older file
 // of that name stays until then. What is not finished is removed.
@@ -22,7 +22,9 @@ class OutputFile {
   // After a failure nothing more is written; finish() tells what the first one was.
   void write(std::string_view bytes);
   bool failed() const { return first_errno_ != 0; }
-  // An error names the file and the system's reason.
+  // What was written so far is the system's to keep. An error names the file and the reason.
+  Result<void> flush();
+  // The same, and gives the file its name.
   Result<void> finish();
 
  private:
@@ -41,4 +43,4 @@ class OutputFile {
 // The whole file in one go.
 Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);
 
-}  // namespace dottrack::workstation
+}  // namespace dottrack::telemetry

@@ -1,4 +1,4 @@
-#include "app/workstation/output_file.h"
+#include "app/telemetry/output_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <csignal>
 
 #include "tests/support/temporary_folder.h"
-#include "tests/unit/workstation/text_of.h"
+#include "tests/support/text_of.h"
 
-namespace dottrack::workstation {
+namespace dottrack::telemetry {
 namespace {
 
 namespace fs = std::filesystem;
@@ -94,4 +94,4 @@ TEST_F(OutputFiles, ADiskThatFillsInTheLastMomentIsAnErrorToo) {
 }
 
 }  // namespace
-}  // namespace dottrack::workstation
+}  // namespace dottrack::telemetry

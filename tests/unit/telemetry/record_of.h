@@ -3,10 +3,10 @@
 
 #include "app/telemetry/cycle_record.h"
 
-namespace dottrack::workstation {
+namespace dottrack::telemetry {
 
-inline telemetry::CycleRecord record_with_pose(std::uint64_t tick) {
-  telemetry::CycleRecord record;
+inline CycleRecord record_with_pose(std::uint64_t tick) {
+  CycleRecord record;
   record.due = record.stamp = Time(Duration(1500000000 + static_cast<Duration::rep>(tick)));
   core::TickResult& result = record.result;
   result.tick = tick;
@@ -33,8 +33,8 @@ inline telemetry::CycleRecord record_with_pose(std::uint64_t tick) {
   return record;
 }
 
-inline telemetry::CycleRecord record_without_pose(std::uint64_t tick) {
-  telemetry::CycleRecord record;
+inline CycleRecord record_without_pose(std::uint64_t tick) {
+  CycleRecord record;
   record.stamp = Time(Duration(7));
   record.result.tick = tick;
   record.result.reason = core::Reason::too_few_regions;
@@ -42,4 +42,4 @@ inline telemetry::CycleRecord record_without_pose(std::uint64_t tick) {
   return record;
 }
 
-}  // namespace dottrack::workstation
+}  // namespace dottrack::telemetry

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace dottrack::workstation {
+namespace dottrack {
 
 inline std::string text_of(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
@@ -34,4 +34,4 @@ inline std::vector<std::string> lines_of(const std::filesystem::path& path) {
   return lines;
 }
 
-}  // namespace dottrack::workstation
+}  // namespace dottrack

@@ -1,0 +1,116 @@
+#include "app/telemetry/unit_log.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace dottrack::telemetry {
+namespace {
+
+constexpr std::uint64_t kTicksBetweenLosses = 100;
+
+std::uint64_t unsent(const CycleCounters& counters) {
+  return counters.sends_failed + counters.sends_without_room;
+}
+
+}  // namespace
+
+UnitLog::UnitLog(std::vector<std::string> cameras, LogLine log)
+    : cameras_(std::move(cameras)), log_(std::move(log)) {}
+
+void UnitLog::do_write(const CycleRecord& record) {
+  ++ticks_;
+  note_state(record.result);
+  note_cameras(record.result);
+  note_can(record.counters);
+  note_irises(record.unhealthy_irises);
+  note_losses(record.counters);
+}
+
+void UnitLog::note_state(const core::TickResult& result) {
+  const bool found = state_ != core::State::tracking && result.state == core::State::tracking;
+  const bool lost = state_ == core::State::tracking && result.state != core::State::tracking;
+  state_ = result.state;
+  reason_ = result.reason;
+  if (found) {
+    log_(Severity::info, fmt::format("lock {}: {} dots, {} cameras", result.reset_count,
+                                     result.dots_used, result.cameras_used.size()));
+  } else if (lost) {
+    log_(Severity::warning, fmt::format("lock {} lost: {}; acquiring again", result.reset_count,
+                                        core::to_string(result.reason)));
+  }
+}
+
+void UnitLog::note_cameras(const core::TickResult& result) {
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    if (result.cameras[i].delivered) {
+      if (away_.contains(i)) log_(Severity::info, fmt::format("camera {}: is back", cameras_[i]));
+      away_.erase(i);
+      ticks_away_[i] = 0;
+    } else if (++ticks_away_[i] == kTicksAway) {
+      log_(Severity::warning, fmt::format("camera {}: delivers no images", cameras_[i]));
+      away_.insert(i);
+    }
+  }
+}
+
+void UnitLog::note_can(const CycleCounters& counters) {
+  const bool went_out = counters.messages_sent > counters_.messages_sent;
+  const bool stayed = unsent(counters) > unsent(counters_);
+  if (!can_silent_ && stayed) {
+    can_silent_ = true;
+    unsent_at_silence_ = unsent(counters_);
+    log_(Severity::warning, "CAN: pose frames do not go out");
+  } else if (can_silent_ && went_out) {
+    can_silent_ = false;
+    log_(Severity::info, fmt::format("CAN: pose frames go out again, {} messages were lost",
+                                     unsent(counters) - unsent_at_silence_));
+  }
+}
+
+void UnitLog::note_irises(CameraSet unhealthy) {
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    if (unhealthy.contains(i) == unhealthy_irises_.contains(i)) continue;
+    if (unhealthy.contains(i)) {
+      log_(Severity::warning, fmt::format("iris of {}: is not where it was sent", cameras_[i]));
+    } else {
+      log_(Severity::info, fmt::format("iris of {}: answers again", cameras_[i]));
+    }
+  }
+  unhealthy_irises_ = unhealthy;
+}
+
+// Losses come in bursts; one line tells of many.
+void UnitLog::note_losses(const CycleCounters& counters) {
+  counters_ = counters;
+  const std::uint64_t missed = counters.deadline_misses - told_.deadline_misses;
+  const std::uint64_t dropped = counters.records_dropped - told_.records_dropped;
+  const bool soon = ticks_of_last_loss_ > 0 && ticks_ - ticks_of_last_loss_ < kTicksBetweenLosses;
+  if ((missed == 0 && dropped == 0) || soon) return;
+  ticks_of_last_loss_ = ticks_;
+  told_ = counters;
+  if (missed > 0) log_(Severity::warning, fmt::format("{} ticks were missed", missed));
+  if (dropped > 0) log_(Severity::warning, fmt::format("{} records were dropped", dropped));
+}
+
+std::string UnitLog::names_of(CameraSet cameras) const {
+  std::string names;
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    if (cameras.contains(i)) names += (names.empty() ? "" : ", ") + cameras_[i];
+  }
+  return names;
+}
+
+std::string UnitLog::status() const {
+  std::string text(core::to_string(state_));
+  if (reason_ != core::Reason::none) text += fmt::format(" ({})", core::to_string(reason_));
+  text += fmt::format(", {} of {} cameras",
+                      cameras_.size() - static_cast<std::size_t>(away_.size()), cameras_.size());
+  if (!away_.empty()) text += fmt::format(" (without {})", names_of(away_));
+  if (!unhealthy_irises_.empty())
+    text += fmt::format(", irises of {} stuck", names_of(unhealthy_irises_));
+  if (can_silent_) text += ", CAN silent";
+  return text + fmt::format(", {} ticks, {} missed", ticks_, counters_.deadline_misses);
+}
+
+}  // namespace dottrack::telemetry
