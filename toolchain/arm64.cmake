@@ -8,4 +8,5 @@ set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
 # Shared libraries only from the target, header-only packages from anywhere.
 set(CMAKE_IGNORE_PREFIX_PATH /usr/lib/x86_64-linux-gnu)
 set(ENV{PKG_CONFIG_LIBDIR} /usr/lib/aarch64-linux-gnu/pkgconfig:/usr/share/pkgconfig)
+find_program(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64-static)
 set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE arm64)

@@ -18,6 +18,10 @@ endfunction()
 # dottrack_test(NAME SOURCES file... [USES target...] [LABELS label...]): one GoogleTest program,
 # registered test by test. The target tests_LABEL builds all programs of that label; the label
 # `threads` is for tests that start threads and so run under the thread sanitizer too.
+set(test_discovery POST_BUILD)
+if(CMAKE_CROSSCOMPILING)
+  set(test_discovery PRE_TEST)  # the machine that builds may not be able to run them
+endif()
 function(dottrack_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;USES;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
@@ -28,7 +32,8 @@ function(dottrack_test name)
   if(ARG_LABELS)
     list(APPEND properties LABELS "${ARG_LABELS}")
   endif()
-  gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
+  gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
+    DISCOVERY_MODE ${test_discovery} PROPERTIES ${properties})
   foreach(label ${ARG_LABELS})
     if(NOT TARGET tests_${label})
       add_custom_target(tests_${label})
