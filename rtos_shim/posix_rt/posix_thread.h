@@ -12,7 +12,8 @@ namespace dottrack::rtos {
 // SCHED_FIFO for a priority, ordinary scheduling for none, whatever the starting thread has. The
 // thread puts its settings in force itself, looks whether they are, and only then runs the body. A
 // start() that failed leaves the object as it was: it may be tried again with fewer settings.
-// A stack holds the C library's own data of the thread too: a few KiB.
+// A stack also holds the C library's own data of the thread, a few KiB; and it may be larger than
+// asked for, when the library has one left over from a thread that has ended.
 class PosixThread final : public Thread {
  public:
   PosixThread() = default;

@@ -2,6 +2,7 @@
 
 #include "rtos_shim/virtual_time/virtual_clock.h"
 #include "rtos_shim/virtual_time/virtual_periodic_timer.h"
+#include "rtos_shim/virtual_time/virtual_watchdog.h"
 
 namespace dottrack::rtos {
 namespace {
@@ -57,6 +58,19 @@ TEST(VirtualPeriodicTimer, AnInstantThatIsDueRightNowIsNotMissed) {
   const Wake wake = timer.wait();
   EXPECT_EQ(wake.missed, 1U);
   EXPECT_EQ(wake.due, at(milliseconds(20)));
+}
+
+TEST(VirtualWatchdog, RemembersWhenItBitFirst) {
+  VirtualClock clock;
+  VirtualWatchdog watchdog(clock, milliseconds(100));
+  clock.jump_to(at(milliseconds(50)));
+  watchdog.kick();
+  clock.jump_to(at(milliseconds(150)));
+  EXPECT_EQ(watchdog.bitten_at(), std::nullopt);
+  clock.jump_to(at(hours(1)));
+  watchdog.kick();
+  clock.jump_to(at(hours(2)));
+  EXPECT_EQ(watchdog.bitten_at(), at(milliseconds(150)));
 }
 
 }  // namespace
