@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "hal/base/result.h"
@@ -32,16 +32,22 @@ struct UsbCameraSetup {
   int height_px = 480;
   double frame_rate_hz = 3.0;
   hal::ExposureSettings exposure{.exposure = std::chrono::milliseconds(4), .gain = 1.0};
+  std::uint64_t seed = 1;  // of the pictures' noise
 };
 
-// One exposure and one picture a camera, as SceneRenderer::render.
+// One exposure and one picture a camera, as SceneRenderer::render. Called in one thread, ahead of
+// the barrier; every picture is of the setup's size.
 using PictureSource = std::function<void(std::span<const Exposure>, std::vector<GreyImage>&)>;
 
 // Listens from open(); the frames start with start(). Every camera exposes at the same barrier; a
 // camera that has not finished sending the frame before leaves the new one out. What the guest sets
-// as exposure and gain acts on the picture.
+// as exposure and gain acts on the picture, from the next but one on. The barriers come at the
+// frame rate as long as a camera streams; otherwise the scene's time stands still: barrier k is of
+// the time k / frame_rate_hz. An instant at which the pictures are not ready has no barrier, and is
+// counted.
 class UsbCameraBank {
  public:
+  // An error names the folder, the socket or the value that cannot be.
   static Result<std::unique_ptr<UsbCameraBank>> open(const UsbCameraSetup& setup,
                                                      PictureSource pictures);
   ~UsbCameraBank();
@@ -51,12 +57,15 @@ class UsbCameraBank {
   void start();
   void stop();
 
+  // The guest sees it soon after. A camera that was plugged in again is as new.
   void unplug(std::size_t camera);
   void plug_in(std::size_t camera);
 
   // From any thread.
   std::vector<Barrier> barriers() const;  // so far
+  std::uint64_t late_barriers() const;    // instants without one, as the pictures were not ready
   std::uint64_t frames_sent(std::size_t camera) const;
+  std::uint64_t frames_skipped(std::size_t camera) const;  // the one before was still on its way
   bool streaming(std::size_t camera) const;
   hal::ExposureSettings exposure(std::size_t camera) const;  // as the guest set it
 

@@ -50,6 +50,9 @@ const std::vector<Rule>& rules() {
        {"host_sim", "hal", "rtos_shim", "app/core/protocol", "app/config/complaint.h",
         "app/config/rig_rules.h", "app/config/table_reader.h", "app/config/text_file.h"},
        {"Eigen", "fmt", "embree3", "toml++"}},
+      {"host_sim/usb_cameras",
+       {"host_sim", "hal", "rtos_shim"},
+       {"fmt", "poll.h", "sys", "unistd.h", "usbredirparser.h"}},
 
       {"tests", {"app", "drivers", "hal", "host_sim", "rtos_shim", "tests"}, {"*"}},
   };
@@ -75,8 +78,9 @@ bool is_backend(std::string_view include) {
 }
 
 bool may_use_backends(std::string_view folder) {
-  constexpr std::array kAssemblers{"app/firmware", "app/workstation",    "tests",
-                                   "host_sim",     "rtos_shim/posix_rt", "rtos_shim/virtual_time"};
+  constexpr std::array kAssemblers{
+      "app/firmware",       "app/workstation",       "tests", "host_sim", "host_sim/usb_cameras",
+      "rtos_shim/posix_rt", "rtos_shim/virtual_time"};
   return std::find(kAssemblers.begin(), kAssemblers.end(), folder) != kAssemblers.end();
 }
 
