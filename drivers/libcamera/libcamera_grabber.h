@@ -33,9 +33,23 @@ struct CameraHealth {
   std::uint64_t returns = 0;
 };
 
+// How the cameras know when to expose.
+enum class Exposing : std::uint8_t {
+  on_trigger,  // when the line is raised; without a line they run freely
+  freely,      // at the ticks' rate, in a phase of their own, line or no line
+};
+
 // trigger() raises the trigger line, release() lowers it; without a line the cameras run freely and
 // a tick takes the newest frames that were exposed together. Mid-exposure times are on the
-// monotonic clock. A camera that is unplugged is missing from the ticks until it is back.
+// monotonic clock: libcamera's stamp is taken for the end of the exposure (a USB camera's is the
+// arrival of a frame's first data), so they are that less half the exposure, plus stamp_offset.
+//
+// A camera that is unplugged, or falls silent for 2 s and 10 ticks, is missing from the ticks and
+// not waited for until it is back; it is looked for ten times a second.
+//
+// Threads: libcamera's own, which also decodes YUYV and MJPEG, and one that hands buffers back to
+// the cameras. Both are started by open() and inherit the scheduling of the thread that calls it.
+// In one process a camera has one grabber at a time: close the old one before the next is opened.
 class LibcameraGrabber final : public hal::FrameGrabber {
  public:
   // `period`: of the ticks. `trigger` may be null. An error names the camera: no such id, no format
@@ -44,7 +58,8 @@ class LibcameraGrabber final : public hal::FrameGrabber {
   static Result<std::unique_ptr<LibcameraGrabber>> open(std::vector<LibcameraSettings> cameras,
                                                         Duration period, hal::OutputLine* trigger,
                                                         bool allow_missing,
-                                                        const rtos::Clock& clock);
+                                                        const rtos::Clock& clock,
+                                                        Exposing exposing = Exposing::on_trigger);
   ~LibcameraGrabber() override;
 
   // From any thread.

@@ -1,0 +1,111 @@
+#include "drivers/libcamera/camera_slot.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace dottrack::drivers {
+namespace {
+
+constexpr Duration kLookEvery = std::chrono::milliseconds(100);
+constexpr Duration kFirstRetry = std::chrono::seconds(1);
+constexpr Duration kLastRetry = std::chrono::seconds(30);
+constexpr Duration kSilence = std::chrono::seconds(2);
+constexpr std::uint64_t kSilentTicks = 10;
+constexpr std::uint64_t kPatientFailures = 8;  // in a row; then they are handed back slowly
+constexpr Duration kSlowly = std::chrono::milliseconds(200);
+
+}  // namespace
+
+CameraSlot::CameraSlot(LibcameraSettings settings, const SlotSurroundings& around)
+    : settings_(std::move(settings)),
+      around_(around),
+      exchange_(around.tick_bell, around.service_bell, around.ticks),
+      silent_ticks_(std::max(kSilentTicks, static_cast<std::uint64_t>(kSilence / around.period))),
+      retry_in_(kFirstRetry) {}
+
+CameraSlot::~CameraSlot() {
+  exchange_.end();
+  stream_.reset();
+}
+
+Result<void> CameraSlot::start(Time now, bool present) {
+  const Duration frame_duration = around_.triggered ? Duration::zero() : around_.period;
+  auto stream =
+      CameraStream::make(around_.manager.get(settings_.id), settings_, frame_duration, exchange_);
+  if (!stream) return tl::unexpected(stream.error());
+  auto memory = (*stream)->map_memory();
+  if (!memory) return tl::unexpected(memory.error());
+  exchange_.begin(std::move(*memory), present);
+  stream_ = std::move(*stream);
+  can_be_set_ = stream_->has_exposure();
+  state_ = State::running;
+  const auto started = stream_->start(now);
+  if (!started) leave();
+  return started;
+}
+
+void CameraSlot::serve(Time now) {
+  if (state_ == State::running) feed(now);
+  if (state_ == State::leaving && exchange_.reclaim()) state_ = State::absent;
+  if (now < next_look_) return;
+  next_look_ = now + kLookEvery;
+  if (state_ == State::running) watch(now);
+  if (state_ == State::absent) come_back(now);
+}
+
+void CameraSlot::feed(Time now) {
+  take_new_exposure();
+  while (const auto buffer = exchange_.next_returned()) stream_->queue(*buffer, now);
+  const bool hopeless = exchange_.failures_in_row() > kPatientFailures;
+  if (hopeless && now < next_feed_of_failed_) return;
+  next_feed_of_failed_ = now + kSlowly;
+  while (const auto buffer = exchange_.next_failed()) {
+    stream_->note_failure(*buffer, now);
+    stream_->queue(*buffer, now);
+  }
+}
+
+// A camera that was unplugged must not be stopped before libcamera knows that it is gone; silence
+// is judged much later than that.
+void CameraSlot::watch(Time now) {
+  const bool gone = around_.manager.get(settings_.id) != stream_->camera();
+  const bool silent = exchange_.silence() > silent_ticks_;
+  if (!gone && !silent) {
+    if (exchange_.present() && exchange_.silence() <= 1) retry_in_ = kFirstRetry;
+    return;
+  }
+  leave();
+  if (silent) retry_later(now);
+}
+
+void CameraSlot::leave() {
+  exchange_.end();
+  stream_.reset();
+  state_ = State::leaving;
+}
+
+void CameraSlot::come_back(Time now) {
+  if (!plugged_in()) return;
+  if (!start(now, false)) retry_later(now);
+}
+
+void CameraSlot::retry_later(Time now) {
+  next_look_ = now + retry_in_;
+  retry_in_ = std::min(2 * retry_in_, kLastRetry);
+}
+
+void CameraSlot::set_exposure(const hal::ExposureSettings& settings) {
+  exposure_ns_ = settings.exposure.count();
+  gain_ = settings.gain;
+  ++exposure_number_;
+}
+
+void CameraSlot::take_new_exposure() {
+  const std::uint32_t number = exposure_number_;
+  if (number == exposure_taken_) return;
+  exposure_taken_ = number;
+  settings_.exposure = {.exposure = Duration(exposure_ns_), .gain = gain_};
+  stream_->set_exposure(settings_.exposure);
+}
+
+}  // namespace dottrack::drivers
