@@ -65,7 +65,7 @@ void IrisMotor::begin_homing() {
   phase_ = MotorPhase::homing;
   leaving_stop_ = settings_.has_end_stop;
   homing_steps_left_ = settings_.travel_steps + overrun();
-  stop_seen_ = 0;
+  stop_readings_ = 0;
   stray_stop_ = 0;
 }
 
@@ -82,38 +82,32 @@ IrisMotor::Heading IrisMotor::heading(bool end_stop) {
 // The end stop counts where it becomes active on the way to it, so a motor that starts on it first
 // leaves it.
 IrisMotor::Heading IrisMotor::homing_heading(bool end_stop) {
-  if (!settings_.has_end_stop) {
-    if (homing_steps_left_ > 0) return Heading::closing;
-    arrive_home();
-    return moving_heading();
-  }
-  if (leaving_stop_ && !end_stop) {
+  if (!settings_.has_end_stop) return homing_steps_left_ > 0 ? Heading::closing : arrive_home();
+  const std::optional<bool> on_stop = settled_stop(end_stop);
+  if (!on_stop) return Heading::none;
+  if (leaving_stop_ && !*on_stop) {
     leaving_stop_ = false;
     homing_steps_left_ = settings_.travel_steps + overrun();
   }
-  if (!leaving_stop_) return seek_stop(end_stop);
-  if (homing_steps_left_ > 0) return Heading::opening;
+  if (!leaving_stop_ && *on_stop) return arrive_home();
+  if (homing_steps_left_ > 0) return leaving_stop_ ? Heading::opening : Heading::closing;
   lose();
   return Heading::none;
 }
 
-IrisMotor::Heading IrisMotor::seek_stop(bool end_stop) {
-  stop_seen_ = end_stop ? stop_seen_ + 1 : 0;
-  if (stop_seen_ >= kStopReadings) {
-    arrive_home();
-    return moving_heading();
-  }
-  if (end_stop) return Heading::none;
-  if (homing_steps_left_ > 0) return Heading::closing;
-  lose();
-  return Heading::none;
+// Nothing until readings in a row agree: one alone may be a disturbance.
+std::optional<bool> IrisMotor::settled_stop(bool end_stop) {
+  stop_readings_ = end_stop == stop_reading_ ? stop_readings_ + 1 : 1;
+  stop_reading_ = end_stop;
+  return stop_readings_ >= kStopReadings ? std::optional(end_stop) : std::nullopt;
 }
 
-void IrisMotor::arrive_home() {
+IrisMotor::Heading IrisMotor::arrive_home() {
   homed_ = true;
   position_ = 0;
   taken_up_ = 0;
   phase_ = MotorPhase::moving;
+  return moving_heading();
 }
 
 IrisMotor::Heading IrisMotor::moving_heading() {

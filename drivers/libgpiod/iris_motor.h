@@ -64,9 +64,9 @@ class IrisMotor {
   void begin_homing();
   Heading heading(bool end_stop);
   Heading homing_heading(bool end_stop);
-  Heading seek_stop(bool end_stop);
+  std::optional<bool> settled_stop(bool end_stop);
   Heading moving_heading();
-  void arrive_home();
+  Heading arrive_home();
   void end_pulse(Time now);
   void rest(Time now);
   void head(Time now, Heading where, bool end_stop);
@@ -83,10 +83,11 @@ class IrisMotor {
   bool homed_ = false;
   bool leaving_stop_ = false;  // homing began with the end stop active
   int homing_steps_left_ = 0;
-  int stop_seen_ = 0;   // times in a row
-  int stray_stop_ = 0;  // steps in a row with the stop active where it should not be
-  int position_ = 0;    // of the blades
-  int taken_up_ = 0;    // of the backlash; 0: a closing step moves the blades, all: an opening
+  bool stop_reading_ = false;
+  int stop_readings_ = 0;  // in a row that were the same
+  int stray_stop_ = 0;     // steps in a row with the stop active where it should not be
+  int position_ = 0;       // of the blades
+  int taken_up_ = 0;       // of the backlash; 0: a closing step moves the blades, all: an opening
   std::uint64_t steps_ = 0;
   Time pulse_end_;
   Time next_step_;

@@ -1,4 +1,4 @@
-// Lines through libgpiod 2.x: one request holds outputs and inputs, each with settings of its own.
+// Lines through libgpiod 2.x. The kernel grants 64 lines a request, so outputs and inputs are two.
 
 #include <gpiod.h>
 
@@ -42,8 +42,11 @@ using Values = std::array<gpiod_line_value, kMaxBankLines>;
 
 class Bank final : public LineBank {
  public:
-  Bank(LineRequest request, const BankRequest& lines)
-      : request_(std::move(request)), outputs_(lines.outputs), inputs_(lines.inputs) {}
+  Bank(LineRequest driven, LineRequest read, const BankRequest& lines)
+      : driven_(std::move(driven)),
+        read_(std::move(read)),
+        outputs_(lines.outputs),
+        inputs_(lines.inputs) {}
 
  private:
   bool do_set(std::uint64_t mask, std::uint64_t values) override {
@@ -56,14 +59,14 @@ class Bank final : public LineBank {
       wanted[count] = value_of(((values >> i) & 1U) != 0);
       ++count;
     }
-    return count == 0 || gpiod_line_request_set_values_subset(request_.get(), count, offsets.data(),
+    return count == 0 || gpiod_line_request_set_values_subset(driven_.get(), count, offsets.data(),
                                                               wanted.data()) == 0;
   }
 
   std::optional<std::uint64_t> do_inputs() override {
     if (inputs_.count == 0) return 0;
     Values read{};
-    if (gpiod_line_request_get_values_subset(request_.get(), inputs_.count, inputs_.offsets.data(),
+    if (gpiod_line_request_get_values_subset(read_.get(), inputs_.count, inputs_.offsets.data(),
                                              read.data()) != 0) {
       return std::nullopt;
     }
@@ -74,7 +77,8 @@ class Bank final : public LineBank {
     return bits;
   }
 
-  LineRequest request_;
+  LineRequest driven_;
+  LineRequest read_;
   Offsets outputs_;
   Offsets inputs_;
 };
@@ -96,15 +100,10 @@ bool add_line(gpiod_line_config* config, const BankLine& line, gpiod_line_direct
          gpiod_line_config_add_line_settings(config, &line.offset, 1, settings.get()) == 0;
 }
 
-LineConfig line_config(const BankRequest& request) {
+LineConfig line_config(const std::vector<BankLine>& lines, gpiod_line_direction direction) {
   LineConfig config(gpiod_line_config_new());
   bool added = config != nullptr;
-  for (const BankLine& line : request.outputs) {
-    added = added && add_line(config.get(), line, GPIOD_LINE_DIRECTION_OUTPUT);
-  }
-  for (const BankLine& line : request.inputs) {
-    added = added && add_line(config.get(), line, GPIOD_LINE_DIRECTION_INPUT);
-  }
+  for (const BankLine& line : lines) added = added && add_line(config.get(), line, direction);
   return added ? std::move(config) : nullptr;
 }
 
@@ -112,10 +111,20 @@ tl::unexpected<Error> chip_error(const std::string& path) {
   return fail("GPIO chip " + path + ": cannot be opened: " + std::strerror(errno));
 }
 
-tl::unexpected<Error> request_error(const BankRequest& request) {
-  const BankLine& first =
-      request.outputs.empty() ? request.inputs.front() : request.outputs.front();
-  return fail(line_name(request, first) +
+// No lines, no request.
+Result<LineRequest> request_some(gpiod_chip* chip, const BankRequest& request,
+                                 const std::vector<BankLine>& lines,
+                                 gpiod_line_direction direction) {
+  if (lines.empty()) return LineRequest();
+  const RequestConfig config(gpiod_request_config_new());
+  const LineConfig settings = line_config(lines, direction);
+  LineRequest granted;
+  if (config && settings) {
+    gpiod_request_config_set_consumer(config.get(), request.consumer.c_str());
+    granted.reset(gpiod_chip_request_lines(chip, config.get(), settings.get()));
+  }
+  if (granted) return granted;
+  return fail(line_name(request, lines.front()) +
               " and its neighbours cannot be requested: " + std::strerror(errno));
 }
 
@@ -136,13 +145,14 @@ Result<std::unique_ptr<LineBank>> request_lines(const BankRequest& request) {
   const Result<void> sound =
       check_lines(request, [&](unsigned offset) { return user_of(chip.get(), offset); });
   if (!sound) return tl::unexpected(sound.error());
-  const RequestConfig config(gpiod_request_config_new());
-  const LineConfig lines = line_config(request);
-  if (!config || !lines) return request_error(request);
-  gpiod_request_config_set_consumer(config.get(), request.consumer.c_str());
-  LineRequest granted(gpiod_chip_request_lines(chip.get(), config.get(), lines.get()));
-  if (!granted) return request_error(request);
-  return std::make_unique<Bank>(std::move(granted), request);
+  // Inputs first: where they are refused, no output has moved.
+  Result<LineRequest> read =
+      request_some(chip.get(), request, request.inputs, GPIOD_LINE_DIRECTION_INPUT);
+  if (!read) return tl::unexpected(std::move(read.error()));
+  Result<LineRequest> driven =
+      request_some(chip.get(), request, request.outputs, GPIOD_LINE_DIRECTION_OUTPUT);
+  if (!driven) return tl::unexpected(std::move(driven.error()));
+  return std::make_unique<Bank>(*std::move(driven), *std::move(read), request);
 }
 
 }  // namespace dottrack::drivers::gpiod
