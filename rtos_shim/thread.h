@@ -12,10 +12,10 @@
 namespace dottrack::rtos {
 
 struct ThreadSettings {
-  std::string name;                      // at most 15 characters
-  std::optional<int> fifo_priority;      // 1 (lowest) to 99; none: ordinary scheduling
-  std::optional<int> cpu;                // the one processor it may run on; none: any
-  std::size_t stack_bytes = 256 * 1024;  // fixed; touched whole before the body runs
+  std::string name;                       // at most 15 characters
+  std::optional<int> fifo_priority = {};  // 1 (lowest) to 99; none: ordinary scheduling
+  std::optional<int> cpu = {};            // the one processor it may run on; none: any
+  std::size_t stack_bytes = 256 * 1024;   // fixed; touched whole before the body runs
 };
 
 // Contract: start() runs `body` once, on a thread of its own, with exactly these settings, or

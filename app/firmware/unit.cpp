@@ -1,0 +1,191 @@
+#include "app/firmware/unit.h"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "rtos_shim/allocation_trap/allocation_trap.h"
+#include "rtos_shim/posix_rt/posix_periodic_timer.h"
+
+namespace dottrack::firmware {
+namespace {
+
+using std::chrono::milliseconds;
+
+// The drivers' threads come before the irises' and after the loop's.
+constexpr int kDriversBelowLoop = 10;
+constexpr int kIrisesBelowLoop = 20;
+constexpr std::size_t kLoopStack_bytes = 1024 * 1024;
+constexpr std::size_t kRecordedTicks = 8;  // that may wait for the disk
+
+int below(int priority, int steps) {
+  return std::max(1, priority - steps);
+}
+
+std::vector<telemetry::FrameSize> frame_sizes(const config::RigConfig& config) {
+  std::vector<telemetry::FrameSize> sizes;
+  for (const core::Camera& camera : config.rig.cameras) {
+    sizes.push_back({camera.width_px, camera.height_px});
+  }
+  return sizes;
+}
+
+bool same_pictures(const config::RigConfig& a, const config::RigConfig& b) {
+  if (a.cameras.size() != b.cameras.size()) return false;
+  for (std::size_t i = 0; i < a.cameras.size(); ++i) {
+    const core::Camera& left = a.rig.cameras[i];
+    const core::Camera& right = b.rig.cameras[i];
+    const bool same = a.cameras[i].name == b.cameras[i].name && left.width_px == right.width_px &&
+                      left.height_px == right.height_px;
+    if (!same) return false;
+  }
+  return true;
+}
+
+// With less than was asked for only where that is allowed: without the priority, else without the
+// processor of its own, else without both.
+Result<void> start_thread(rtos::PosixThread& thread, const rtos::ThreadSettings& wanted,
+                          const std::function<void()>& body, Degradation& degradation) {
+  const Result<void> started = thread.start(wanted, body);
+  if (started || !degradation.accepts(started.error())) return started;
+  rtos::ThreadSettings less = wanted;
+  less.fifo_priority.reset();
+  const Result<void> without_priority = thread.start(less, body);
+  if (without_priority) return {};
+  less = wanted;
+  less.cpu.reset();
+  if (thread.start(less, body)) return {};
+  if (!degradation.accepts(without_priority.error())) return without_priority;
+  less.fifo_priority.reset();
+  return thread.start(less, body);
+}
+
+}  // namespace
+
+Unit::Unit(const config::RigConfig& config)
+    : loaded_(std::make_unique<LoadedTracker>(config)),
+      records_(std::make_unique<telemetry::RecordRing>()) {
+  if (config.unit.recording && config.unit.recording->frames) {
+    frames_ = std::make_unique<telemetry::FrameRing>(frame_sizes(config), kRecordedTicks);
+  }
+}
+
+Unit::~Unit() {
+  stop();
+}
+
+Result<std::unique_ptr<Unit>> Unit::open(const config::RigConfig& config,
+                                         Degradation& degradation) {
+  std::unique_ptr<Unit> unit(new Unit(config));
+  if (auto done = unit->open_devices(degradation); !done) {
+    return tl::unexpected<Error>(done.error());
+  }
+  return unit;
+}
+
+// A library's own threads take over the scheduling of the thread that opens it.
+Result<void> Unit::open_devices(Degradation& degradation) {
+  rtos::PosixThread opener;
+  Result<std::unique_ptr<Hardware>> opened = fail("the devices were not opened");
+  const int priority = below(config().unit.loop.priority, kDriversBelowLoop);
+  auto started = start_thread(
+      opener, {.name = "dottrack-open", .fifo_priority = priority},
+      [&] { opened = Hardware::open(config(), clock_); }, degradation);
+  if (!started) return started;
+  opener.join();
+  if (!opened) return tl::unexpected<Error>(opened.error());
+  hardware_ = std::move(*opened);
+  return {};
+}
+
+void Unit::make_cycle(rtos::Watchdog* watchdog) {
+  cycle::CycleSettings settings = cycle::settings_for(config().cameras.size(), period_of(config()));
+  settings.can_base_id = config().unit.can.base_id;
+  Hardware& hardware = *hardware_;
+  cycle_.emplace(cycle::CycleParts{.grabber = hardware.grabber(),
+                                   .iris = *hardware.irises,
+                                   .can = *hardware.can,
+                                   .tracker = loaded_->tracker,
+                                   .clock = clock_,
+                                   .stopwatch = clock_,
+                                   .records = *records_,
+                                   .frames = frames_.get(),
+                                   .lamp = hardware.lamp.get(),
+                                   .watchdog = watchdog},
+                 settings);
+}
+
+Result<void> Unit::start(rtos::Watchdog* watchdog, Degradation& degradation) {
+  make_cycle(watchdog);
+  bool has_irises = false;
+  for (std::size_t i = 0; i < config().cameras.size(); ++i) {
+    const auto& iris = config().unit.cameras[i].iris;
+    if (!iris) continue;
+    hardware_->irises->move_to(i, iris->opening);
+    has_irises = true;
+  }
+  const config::LoopConfig& loop = config().unit.loop;
+  if (has_irises) {
+    const int priority = below(loop.priority, kIrisesBelowLoop);
+    auto started = start_thread(
+        iris_thread_, {.name = "dottrack-iris", .fifo_priority = priority},
+        [this] { run_irises(); }, degradation);
+    if (!started) return started;
+  }
+  return start_thread(
+      loop_thread_,
+      {.name = "dottrack-loop",
+       .fifo_priority = loop.priority,
+       .cpu = loop.cpu,
+       .stack_bytes = kLoopStack_bytes},
+      [this] { run_loop(); }, degradation);
+}
+
+void Unit::stop() {
+  ending_ = true;
+  loop_thread_.join();
+  irises_ending_ = true;
+  iris_thread_.join();
+}
+
+bool Unit::takes(const config::RigConfig& other) const {
+  const config::RigConfig& own = config();
+  return own.frame_rate_hz == other.frame_rate_hz && own.unit == other.unit &&
+         own.rig.target.dots.size() == other.rig.target.dots.size() && same_pictures(own, other);
+}
+
+void Unit::exchange(config::RigConfig config) {
+  auto next = std::make_unique<LoadedTracker>(std::move(config));
+  next_tracker_ = &next->tracker;
+  // The loop takes it at its next tick.
+  while (next_tracker_.load() != nullptr) std::this_thread::sleep_for(milliseconds(1));
+  loaded_ = std::move(next);
+}
+
+void Unit::run_loop() {
+  const Duration period = period_of(config());
+  rtos::PosixPeriodicTimer timer(clock_.now() + period, period);
+  while (!ending_) {
+    const rtos::Wake wake = timer.wait();
+    if (core::Tracker* next = next_tracker_.load()) {
+      cycle_->use(*next);
+      next_tracker_ = nullptr;
+    }
+    const rtos::AllocationTrap::Scope armed;
+    cycle_->tick(wake);
+    heap_calls_ += armed.calls().total();
+    ++ticks_;
+  }
+  cycle_->farewell(clock_.now());
+}
+
+void Unit::run_irises() {
+  drivers::GpioIris& irises = *hardware_->irises;
+  rtos::PosixPeriodicTimer timer(clock_.now(), irises.step_period());
+  while (!irises_ending_) {
+    timer.wait();
+    irises.advance(clock_.now());
+  }
+}
+
+}  // namespace dottrack::firmware
