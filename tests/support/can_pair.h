@@ -26,13 +26,13 @@ class CanPair {
   CanPair() {
     int ends[2];
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends) != 0) throw std::runtime_error("no pair");
-    driver_end_ = ends[0];
+    driver_end_.emplace(ends[0]);
     bus_end_.emplace(ends[1]);
   }
 
   // Once: the driver's end goes with what is made of it.
   std::unique_ptr<drivers::CanChannel> channel(bool fd, const rtos::Clock& clock) {
-    return std::make_unique<drivers::CanChannel>(drivers::CanPort(driver_end_),
+    return std::make_unique<drivers::CanChannel>(std::move(driver_end_.value()),
                                                  std::make_unique<Link>(link), fd, clock);
   }
 
@@ -83,7 +83,7 @@ class CanPair {
     MadeUpLink& made_up_;
   };
 
-  int driver_end_ = -1;
+  std::optional<drivers::CanPort> driver_end_;
   std::optional<drivers::CanPort> bus_end_;
 };
 
