@@ -199,6 +199,76 @@ TEST_F(CycleTest, ARecorderThatIsTooSlowLosesRecordsAndNotTheLoop) {
   EXPECT_EQ(tick().counters.records_dropped, 3U);
 }
 
+TEST_F(CycleTest, TheFarewellLeavesASafeStateAndSaysWhy) {
+  show(0);
+  tick();
+  cycle_.farewell(clock_.now());
+  EXPECT_EQ(iris_.released, CameraSet::first(kCameras));
+  const auto message = last_message();
+  ASSERT_TRUE(message);
+  EXPECT_FALSE(message->pose_valid);
+  EXPECT_EQ(message->state, core::State::acquiring);
+  EXPECT_EQ(message->reason, core::Reason::stopped);
+  EXPECT_EQ(message->reset_count, 1);
+}
+
+TEST_F(CycleTest, AnotherTrackerTakesOverAndItsLocksCountOn) {
+  show(0);
+  tick();
+  core::Tracker other(scene_.rig());
+  cycle_.use(other);
+  show(1);
+  const telemetry::CycleRecord& record = tick();
+  EXPECT_TRUE(record.result.has_pose);
+  EXPECT_EQ(record.result.tick, 1U);
+  EXPECT_EQ(record.result.reset_count, 2U);
+}
+
+class UnitCycleTest : public CycleTest {
+ protected:
+  static std::vector<telemetry::FrameSize> sizes(const core::Rig& rig) {
+    std::vector<telemetry::FrameSize> sizes;
+    for (const core::Camera& camera : rig.cameras) {
+      sizes.push_back({camera.width_px, camera.height_px});
+    }
+    return sizes;
+  }
+
+  test::FakeLine lamp_;
+  test::FakeWatchdog watchdog_;
+  telemetry::FrameRing frames_ring_{sizes(scene_.rig()), 2};
+  Cycle unit_{{grabber_, iris_, can_, tracker_, clock_, stopwatch_, *ring_, &frames_ring_, &lamp_,
+               &watchdog_},
+              settings_for(kCameras, kPeriod)};
+};
+
+TEST_F(UnitCycleTest, TheLampBlinksWhileSearchingAndShinesWhileTracking) {
+  for (int n = 0; n < 3; ++n) unit_.tick(timer_.wait());
+  EXPECT_THAT(lamp_.states, testing::ElementsAre(true, false, true));
+  show(0);
+  for (int n = 0; n < 3; ++n) unit_.tick(timer_.wait());
+  EXPECT_THAT(lamp_.states, testing::ElementsAre(true, false, true, true, true, true));
+  unit_.farewell(clock_.now());
+  EXPECT_FALSE(lamp_.states.back());
+}
+
+TEST_F(UnitCycleTest, EveryTickKicksTheWatchdog) {
+  for (int n = 0; n < 4; ++n) unit_.tick(timer_.wait());
+  EXPECT_EQ(watchdog_.kicks, 4);
+}
+
+TEST_F(UnitCycleTest, TheFramesOfATickAreKeptAndAFullRingIsCounted) {
+  show(0);
+  for (int n = 0; n < 3; ++n) unit_.tick(timer_.wait());
+  const telemetry::FrameCopy* copy = frames_ring_.front();
+  ASSERT_NE(copy, nullptr);
+  EXPECT_EQ(copy->delivered, CameraSet::first(kCameras));
+  EXPECT_EQ(copy->frames[2].image.at(11, 7), shown_[2].view().at(11, 7));
+  telemetry::CycleRecord record;
+  while (ring_->try_pop(record)) continue;
+  EXPECT_EQ(record.counters.frames_dropped, 1U);
+}
+
 TEST_F(CycleTest, NoTickTouchesTheHeap) {
   std::uint64_t heap_calls = 0;
   const auto armed_tick = [&] {

@@ -6,6 +6,8 @@
 #include "hal/can_bus.h"
 #include "hal/frame_grabber.h"
 #include "hal/iris.h"
+#include "hal/output_line.h"
+#include "rtos_shim/watchdog.h"
 
 namespace dottrack::cycle::test {
 
@@ -44,10 +46,14 @@ class FakeGrabber final : public hal::FrameGrabber {
 class FakeIris final : public hal::Iris {
  public:
   CameraSet broken;
+  CameraSet released;
 
  private:
   bool do_move_to(std::size_t, double) override { return false; }
-  bool do_release_to_auto(std::size_t) override { return false; }
+  bool do_release_to_auto(std::size_t camera) override {
+    released.insert(camera);
+    return true;
+  }
   hal::IrisState do_state(std::size_t camera) const override {
     return {.healthy = !broken.contains(camera)};
   }
@@ -72,6 +78,26 @@ class FakeCan final : public hal::CanBus {
   }
   bool do_receive(hal::CanFrame&) override { return false; }
   hal::CanState do_state() const override { return hal::CanState::active; }
+};
+
+class FakeLine final : public hal::OutputLine {
+ public:
+  std::vector<bool> states;
+
+ private:
+  bool do_set(bool active) override {
+    states.push_back(active);
+    return true;
+  }
+};
+
+class FakeWatchdog final : public rtos::Watchdog {
+ public:
+  int kicks = 0;
+
+ private:
+  void do_kick() override { ++kicks; }
+  Duration do_timeout() const override { return std::chrono::seconds(1); }
 };
 
 }  // namespace dottrack::cycle::test
