@@ -103,14 +103,18 @@ void UsbCameraBank::Bank::obey() {
 void UsbCameraBank::Bank::start() {
   if (std::exchange(running_, true)) return;
   grid_.start(clock_.now());
-  if (!std::exchange(ordered_, true)) order_pictures();
+  if (ordered_.empty()) order_pictures();
 }
 
 void UsbCameraBank::Bank::keep_time() {
   const Time now = clock_.now();
   const std::uint64_t instants = grid_.passed(now);
-  if (instants == 0 || !anyone_streams()) return;
+  if (instants == 0) return;
   const bool ready = worker_.ready();
+  if (!anyone_streams()) {
+    if (ready) refresh_pictures();
+    return;
+  }
   {
     const std::scoped_lock lock(mutex_);
     late_ += instants - (ready ? 1 : 0);
@@ -123,18 +127,35 @@ bool UsbCameraBank::Bank::anyone_streams() const {
                      [](const auto& port) { return port->streaming(); });
 }
 
+std::vector<hal::ExposureSettings> UsbCameraBank::Bank::settings() const {
+  std::vector<hal::ExposureSettings> settings;
+  for (const auto& port : ports_) settings.push_back(port->exposure());
+  return settings;
+}
+
 void UsbCameraBank::Bank::order_pictures() {
+  ordered_ = settings();
   std::vector<Exposure> exposures;
   for (std::size_t i = 0; i < ports_.size(); ++i) {
-    const hal::ExposureSettings settings = ports_[i]->exposure();
     Exposure exposure;
     exposure.middle_s = static_cast<double>(next_barrier_) / setup_.frame_rate_hz;
-    exposure.duration_s = to_seconds(settings.exposure);
-    exposure.gain = settings.gain;
+    exposure.duration_s = to_seconds(ordered_[i].exposure);
+    exposure.gain = ordered_[i].gain;
     exposure.noise = {setup_.seed, i, next_barrier_};
     exposures.push_back(exposure);
   }
   worker_.ask(std::move(exposures));
+}
+
+// Pictures that have waited for a camera to stream are of settings that may have changed since.
+void UsbCameraBank::Bank::refresh_pictures() {
+  const std::vector<hal::ExposureSettings> now = settings();
+  const bool same = std::equal(
+      now.begin(), now.end(), ordered_.begin(), ordered_.end(),
+      [](const auto& a, const auto& b) { return a.exposure == b.exposure && a.gain == b.gain; });
+  if (same) return;
+  worker_.take();
+  order_pictures();
 }
 
 void UsbCameraBank::Bank::release(Time now) {

@@ -52,7 +52,9 @@ class UsbCameraBank::Bank {
   void obey();
   void keep_time();
   bool anyone_streams() const;
+  std::vector<hal::ExposureSettings> settings() const;
   void order_pictures();
+  void refresh_pictures();
   void release(Time now);
   void send();
   void publish();
@@ -62,8 +64,8 @@ class UsbCameraBank::Bank {
   Ports ports_;
   rtos::FileDescriptor wake_;
   BarrierGrid grid_;
+  std::vector<hal::ExposureSettings> ordered_;  // of the pictures that come next
   bool running_ = false;
-  bool ordered_ = false;
   bool ending_ = false;
   std::uint64_t next_barrier_ = 0;
 

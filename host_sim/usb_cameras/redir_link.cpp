@@ -78,10 +78,7 @@ void RedirLink::listen_to_parser() {
     self(link).greeted_ = true;
     self(link).announce();
   };
-  p.reset_func = [](void* link) {
-    self(link).device_.reset();
-    self(link).streaming_ = false;
-  };
+  p.reset_func = [](void* link) { self(link).on_reset(); };
   p.set_configuration_func = [](void* link, std::uint64_t id,
                                 usb_redir_set_configuration_header* header) {
     self(link).on_set_configuration(id, header->configuration);
@@ -193,6 +190,13 @@ void RedirLink::on_bulk(std::uint64_t id, const usb_redir_bulk_packet_header& he
   }
   transfers_.push_back(transfer);
   streaming_ = device_.committed();
+}
+
+void RedirLink::on_reset() {
+  device_.reset();
+  streaming_ = false;
+  for (const Transfer& transfer : transfers_) end_transfer(transfer, usb_redir_cancelled, {});
+  transfers_.clear();
 }
 
 // A host takes its transfers back when it ends the stream.

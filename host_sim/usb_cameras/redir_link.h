@@ -59,6 +59,7 @@ class RedirLink {
   void on_control(std::uint64_t id, const usb_redir_control_packet_header& header,
                   std::span<const std::uint8_t> data);
   void on_bulk(std::uint64_t id, const usb_redir_bulk_packet_header& header);
+  void on_reset();
   void on_cancel(std::uint64_t id);
   void on_set_configuration(std::uint64_t id, std::uint8_t configuration);
   void on_get_configuration(std::uint64_t id);

@@ -91,9 +91,10 @@ UvcDevice::UvcDevice(const UvcFacts& facts, const hal::ExposureSettings& exposur
                       .high = kAperturePriority,
                       .step = kManual | kAperturePriority,
                       .initial = kAperturePriority,
-                      .now = kAperturePriority};
+                      .at_start = kAperturePriority};
   controls_[kTime] = {kCameraTerminal, kExposureTime, 4, 1, longest, 1, time, time};
   controls_[kFactor] = {kProcessingUnit, kGain, 2, kUnity, kHighestGain, 1, kUnity, gain};
+  for (Control& control : controls_) control.now = control.at_start;
 }
 
 ControlAnswer UvcDevice::control(const ControlRequest& request,
@@ -183,12 +184,12 @@ void UvcDevice::reset() {
 
 void UvcDevice::power_up() {
   reset();
-  for (Control& control : controls_) control.now = control.initial;
+  for (Control& control : controls_) control.now = control.at_start;
   complaint_ = Complaint::none;
 }
 
 hal::ExposureSettings UvcDevice::exposure() const {
-  const std::uint32_t time = automatic() ? controls_[kTime].initial : controls_[kTime].now;
+  const std::uint32_t time = automatic() ? controls_[kTime].at_start : controls_[kTime].now;
   return {std::chrono::microseconds(100) * time, controls_[kFactor].now / double{kUnity}};
 }
 

@@ -55,7 +55,8 @@ class UvcDevice {
     std::uint32_t low = 0;
     std::uint32_t high = 0;
     std::uint32_t step = 1;
-    std::uint32_t initial = 0;
+    std::uint32_t initial = 0;  // that the device tells of: unity, for a gain
+    std::uint32_t at_start = 0;
     std::uint32_t now = 0;
   };
   enum class Complaint : std::uint8_t {
