@@ -64,18 +64,20 @@ const std::string kResidualWords = "; expected a number of metres above 0 and up
 const std::string kLostWords = "; expected a whole number from 1 to 1000000";
 const std::string kNameWords = "; expected a folder's name of letters, digits, - and _";
 const std::string kCameraKeys =
-    "; expected one of name, model, device, distance_m, intensity_dn, min_contrast_dn, "
-    "background_px, polarity";
+    "; expected one of name, model, distance_m, intensity_dn, min_contrast_dn, background_px, "
+    "polarity, device, exposure_ms, gain, stamp_offset_ms, iris";
 
 INSTANTIATE_TEST_SUITE_P(
     UnknownKeys, RigFileRefuses,
     testing::Values(
-        Mistake{"AtTheTop", "[tracking]", "[trackin]",
-                "rig.toml:27: unknown key \"trackin\" in the rig file; "
-                "expected one of rig, camera, target, tracking"},
-        Mistake{"BeforeTheFirstTable", "[rig]", "name = 1\n[rig]",
-                "rig.toml:1: unknown key \"name\" in the rig file; "
-                "expected one of rig, camera, target, tracking"},
+        Mistake{
+            "AtTheTop", "[tracking]", "[trackin]",
+            "rig.toml:27: unknown key \"trackin\" in the rig file; "
+            "expected one of rig, camera, target, tracking, can, trigger, lamp, loop, recording"},
+        Mistake{
+            "BeforeTheFirstTable", "[rig]", "name = 1\n[rig]",
+            "rig.toml:1: unknown key \"name\" in the rig file; "
+            "expected one of rig, camera, target, tracking, can, trigger, lamp, loop, recording"},
         Mistake{"InRig", "frame_rate_hz", "fps",
                 "rig.toml:3: unknown key \"fps\" in [rig]; expected one of name, frame_rate_hz"},
         Mistake{"InCamera", "model", "modell",
