@@ -119,6 +119,7 @@ IrisMotor::Heading IrisMotor::moving_heading() {
   return target > position_ ? Heading::opening : Heading::closing;
 }
 
+// Half a period up and half a period down: never two steps closer than a period.
 void IrisMotor::end_pulse(Time now) {
   if (now < pulse_end_) return;
   pins_.step = false;
@@ -147,7 +148,6 @@ void IrisMotor::begin_pulse(Time now, Heading where, bool end_stop) {
   if (phase_ == MotorPhase::faulty) return;
   pins_.step = true;
   pulse_end_ = now + half_period_;
-  next_step_ = now + settings_.step_period;
   rest_until_ = now + settings_.step_period + kHold;
   ++steps_;
   count(where);
