@@ -99,6 +99,8 @@ class UsbCameraBankTest : public testing::Test {
     return guest;
   }
 
+  void TearDown() override { held_ = false; }
+
   static constexpr double kRate_hz = 100.0;
   test::TemporaryFolder folder_;
   std::size_t pixels_ = 0;
