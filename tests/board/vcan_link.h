@@ -8,6 +8,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
@@ -15,14 +17,13 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace dottrack::test {
 
 // A request about one link, put together attribute by attribute.
 class LinkRequest {
  public:
-  LinkRequest(unsigned short type, unsigned flags, bool up) : bytes_(kHead) {
+  LinkRequest(unsigned short type, unsigned flags, bool up) {
     head_.nlmsg_type = type;
     head_.nlmsg_flags = static_cast<unsigned short>(NLM_F_REQUEST | NLM_F_ACK | flags);
     link_.ifi_flags = up ? IFF_UP : 0;
@@ -32,10 +33,10 @@ class LinkRequest {
   LinkRequest& add(unsigned short type, std::span<const std::byte> content) {
     const rtattr head{.rta_len = static_cast<unsigned short>(RTA_LENGTH(content.size())),
                       .rta_type = type};
-    const std::size_t at = bytes_.size();
-    bytes_.resize(at + RTA_SPACE(content.size()));
-    std::memcpy(bytes_.data() + at, &head, sizeof(head));
-    std::memcpy(bytes_.data() + at + RTA_LENGTH(0), content.data(), content.size());
+    const auto room = std::span(bytes_).subspan(size_, RTA_SPACE(content.size()));
+    std::ranges::copy(std::as_bytes(std::span(&head, 1)), room.begin());
+    std::ranges::copy(content, room.subspan(RTA_LENGTH(0)).begin());
+    size_ += room.size();
     return *this;
   }
 
@@ -43,7 +44,7 @@ class LinkRequest {
   int ask() {
     const int descriptor = ::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_ROUTE);
     if (descriptor < 0) return errno;
-    head_.nlmsg_len = static_cast<unsigned>(bytes_.size());
+    head_.nlmsg_len = static_cast<unsigned>(size_);
     std::memcpy(bytes_.data(), &head_, sizeof(head_));
     std::memcpy(bytes_.data() + NLMSG_HDRLEN, &link_, sizeof(link_));
     struct {
@@ -51,7 +52,7 @@ class LinkRequest {
       nlmsgerr error;
       std::byte echoed[1024];
     } answer{};
-    const bool answered = ::send(descriptor, bytes_.data(), bytes_.size(), 0) > 0 &&
+    const bool answered = ::send(descriptor, bytes_.data(), size_, 0) > 0 &&
                           ::recv(descriptor, &answer, sizeof(answer), 0) > 0;
     const int error = answered ? -answer.error.error : errno;
     ::close(descriptor);
@@ -59,11 +60,10 @@ class LinkRequest {
   }
 
  private:
-  static constexpr std::size_t kHead = NLMSG_SPACE(sizeof(ifinfomsg));
-
   nlmsghdr head_{};
   ifinfomsg link_{};
-  std::vector<std::byte> bytes_;
+  alignas(4) std::array<std::byte, 512> bytes_{};
+  std::size_t size_ = NLMSG_SPACE(sizeof(ifinfomsg));
 };
 
 class VcanLink {
@@ -82,14 +82,13 @@ class VcanLink {
 
   // Up, at once. 0 or an errno.
   int make() const {
-    const char kind[] = "vcan";
-    std::vector<std::byte> info(RTA_SPACE(sizeof(kind)));
-    const rtattr head{.rta_len = RTA_LENGTH(sizeof(kind)), .rta_type = IFLA_INFO_KIND};
-    std::memcpy(info.data(), &head, sizeof(head));
-    std::memcpy(info.data() + RTA_LENGTH(0), kind, sizeof(kind));
+    struct {
+      rtattr head{.rta_len = RTA_LENGTH(sizeof(kind)), .rta_type = IFLA_INFO_KIND};
+      char kind[5] = "vcan";
+    } const info;
     return about(RTM_NEWLINK, NLM_F_CREATE | NLM_F_EXCL, true)
         .add(IFLA_MTU, std::as_bytes(std::span(&mtu_bytes_, 1)))
-        .add(IFLA_LINKINFO, info)
+        .add(IFLA_LINKINFO, std::as_bytes(std::span(&info, 1)))
         .ask();
   }
   int remove() const { return about(RTM_DELLINK, 0, false).ask(); }
