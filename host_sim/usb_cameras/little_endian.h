@@ -9,8 +9,8 @@
 namespace dottrack::host_sim {
 
 inline void append(std::vector<std::uint8_t>& bytes, std::uint64_t value, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+  for (std::size_t i = 0; i < count; ++i, value >>= 8U) {
+    bytes.push_back(static_cast<std::uint8_t>(value));
   }
 }
 
