@@ -8,9 +8,11 @@ namespace {
 
 constexpr Duration kLookEvery = std::chrono::milliseconds(100);
 constexpr Duration kFirstRetry = std::chrono::seconds(1);
-constexpr Duration kLastRetry = std::chrono::seconds(30);
+constexpr Duration kFirstRestart = std::chrono::seconds(30);
+constexpr Duration kLastRetry = std::chrono::minutes(10);
 constexpr Duration kSilence = std::chrono::seconds(2);
 constexpr std::uint64_t kSilentTicks = 10;
+constexpr std::uint64_t kAnswering = 2;        // ticks without a frame
 constexpr std::uint64_t kPatientFailures = 8;  // in a row; then they are handed back slowly
 constexpr Duration kSlowly = std::chrono::milliseconds(200);
 
@@ -21,7 +23,8 @@ CameraSlot::CameraSlot(LibcameraSettings settings, const SlotSurroundings& aroun
       around_(around),
       exchange_(around.tick_bell, around.service_bell, around.ticks),
       silent_ticks_(std::max(kSilentTicks, static_cast<std::uint64_t>(kSilence / around.period))),
-      retry_in_(kFirstRetry) {}
+      retry_in_(kFirstRetry),
+      restart_in_(kFirstRestart) {}
 
 CameraSlot::~CameraSlot() {
   exchange_.end();
@@ -39,6 +42,7 @@ Result<void> CameraSlot::start(Time now, bool present) {
   stream_ = std::move(*stream);
   can_be_set_ = stream_->has_exposure();
   state_ = State::running;
+  last_heard_ = now;
   const auto started = stream_->start(now);
   if (!started) leave();
   return started;
@@ -53,8 +57,11 @@ void CameraSlot::serve(Time now) {
   if (state_ == State::absent) come_back(now);
 }
 
+// A camera that does not answer is told nothing: libcamera's one thread, and with it every camera,
+// would wait for the answer.
 void CameraSlot::feed(Time now) {
   take_new_exposure();
+  stream_->hold_controls(exchange_.silence() > kAnswering);
   while (const auto buffer = exchange_.next_returned()) stream_->queue(*buffer, now);
   const bool hopeless = exchange_.failures_in_row() > kPatientFailures;
   if (hopeless && now < next_feed_of_failed_) return;
@@ -65,17 +72,25 @@ void CameraSlot::feed(Time now) {
   }
 }
 
-// A camera that was unplugged must not be stopped before libcamera knows that it is gone; silence
-// is judged much later than that.
+// Stopping a silent camera may take the seconds that its bus waits for an answer, and blinds all
+// others meanwhile, so it is done late and ever more rarely. It must never be done to a camera that
+// was just unplugged: libcamera ends the program when it does not know of that yet.
 void CameraSlot::watch(Time now) {
-  const bool gone = around_.manager.get(settings_.id) != stream_->camera();
-  const bool silent = exchange_.silence() > silent_ticks_;
-  if (!gone && !silent) {
-    if (exchange_.present() && exchange_.silence() <= 1) retry_in_ = kFirstRetry;
+  if (around_.manager.get(settings_.id) != stream_->camera()) {
+    leave();
     return;
   }
+  if (exchange_.silence() <= silent_ticks_) {
+    last_heard_ = now;
+    if (!exchange_.present()) return;
+    retry_in_ = kFirstRetry;
+    restart_in_ = kFirstRestart;
+    return;
+  }
+  exchange_.note_silence();
+  if (now - last_heard_ < restart_in_) return;
+  restart_in_ = std::min(2 * restart_in_, kLastRetry);
   leave();
-  if (silent) retry_later(now);
 }
 
 void CameraSlot::leave() {

@@ -57,10 +57,12 @@ class CameraSlot {
   FrameExchange exchange_;
   std::unique_ptr<CameraStream> stream_;
   State state_ = State::absent;
-  std::uint64_t silent_ticks_;  // after so many without a frame, the camera is started anew
+  std::uint64_t silent_ticks_;  // after so many without a frame, the camera is not waited for
+  Time last_heard_ = Time::min();
   Time next_look_ = Time::min();
   Time next_feed_of_failed_ = Time::min();
-  Duration retry_in_;
+  Duration retry_in_;    // when it does not start
+  Duration restart_in_;  // when it is silent
 
   // The tick writes these in this order; the service takes them when the number has changed.
   std::atomic<Duration::rep> exposure_ns_{0};

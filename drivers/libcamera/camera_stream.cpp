@@ -153,7 +153,7 @@ void CameraStream::note_failure(std::size_t buffer, Time now) {
 
 // One thing at a time: a camera may refuse an exposure while it still sets its own.
 void CameraStream::add_controls(libcamera::ControlList& controls, std::size_t buffer, Time now) {
-  if (now < tell_from_) return;
+  if (hold_ || now < tell_from_) return;
   if (!manual_) {
     manual_ = true;
     telling_ = buffer;

@@ -38,6 +38,8 @@ class CameraStream {
   void note_failure(std::size_t buffer, Time now);
 
   void set_exposure(const hal::ExposureSettings& settings) { wanted_ = settings; }
+  // Whether to wait with whatever the camera is to be told.
+  void hold_controls(bool hold) { hold_ = hold; }
   bool has_exposure() const;
   const std::shared_ptr<libcamera::Camera>& camera() const { return camera_; }
 
@@ -65,6 +67,7 @@ class CameraStream {
   bool acquired_ = false;
   bool connected_ = false;
 
+  bool hold_ = false;
   bool manual_ = false;                          // the camera was told to leave its exposure alone
   std::optional<hal::ExposureSettings> wanted_;  // not told yet
   hal::ExposureSettings told_;

@@ -21,12 +21,23 @@ void FrameExchange::end() {
   {
     const std::lock_guard lock(run_);
     running_ = false;
-    if (present_.exchange(false)) {
-      departed_ = true;
-      ++departures_;
-    }
+    depart();
   }
   tick_bell_.ring();  // whoever waits for this camera need not
+}
+
+void FrameExchange::note_silence() {
+  {
+    const std::lock_guard lock(run_);
+    depart();
+  }
+  tick_bell_.ring();
+}
+
+void FrameExchange::depart() {
+  if (!present_.exchange(false)) return;
+  departed_ = true;
+  ++departures_;
 }
 
 bool FrameExchange::reclaim() {

@@ -41,6 +41,8 @@ class FrameExchange {
   // A run begins: at most kMaxBuffers buffers, all with the camera. The camera counts as present at
   // once, or when its first frame comes.
   void begin(std::unique_ptr<FrameMemory> memory, bool present);
+  // The camera counts as away, until its next frame.
+  void note_silence();
   // The run ends: what completes from now on is ignored.
   void end();
   // After end(): whether the tick has given everything back. The memory is then free.
@@ -69,6 +71,7 @@ class FrameExchange {
   CameraHealth health() const;
 
  private:
+  void depart();
   void count_sequence(std::uint32_t sequence);
   void fail(std::size_t buffer);
   void deliver(const Completion& completion);
