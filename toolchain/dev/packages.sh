@@ -7,8 +7,12 @@ packages_in() {
   for list in "$@"; do grep -v '^#' "toolchain/packages/$list.txt"; done | sort -u
 }
 
+# is_installed NAME[:ARCHITECTURE]: without one, the machine's own.
 is_installed() {
-  [[ $(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
+  local architecture
+  if [[ $1 == *:* ]]; then architecture=${1##*:}; else architecture=$(dpkg --print-architecture); fi
+  dpkg-query -W -f='${Architecture} ${db:Status-Status}\n' "$1" 2>/dev/null |
+    grep -xE "(all|$architecture) installed" >/dev/null
 }
 
 # With nobody there to type a password, sudo must not ask for one.
@@ -31,6 +35,24 @@ apt_install() {
   apt update && apt install --no-install-recommends "$@"
 }
 
+# know_architectures PACKAGE...: makes apt know the architectures of packages like NAME:arm64.
+know_architectures() {
+  local package architecture known
+  known=$(dpkg --print-architecture && dpkg --print-foreign-architectures)
+  for package in "$@"; do
+    architecture=${package##*:}
+    [[ $package != *:* || $known == *"$architecture"* ]] && continue
+    add_architecture "$architecture" && apt update || return
+    known+=" $architecture"
+  done
+}
+
+add_architecture() {
+  if ((EUID == 0)); then dpkg --add-architecture "$1"; else "${sudo[@]}" dpkg --add-architecture "$1"; fi
+}
+
+install_missing() { know_architectures "$@" && apt_install "$@"; }
+
 # need LIST...: installs what the package lists name and the machine has not. Calls apt only then.
 need() {
   command -v dpkg-query >/dev/null ||
@@ -40,6 +62,6 @@ need() {
     is_installed "$package" || missing+=("$package")
   done < <(packages_in "$@")
   ((${#missing[@]} == 0)) && return
-  step "install ${missing[*]}" install apt_install "${missing[@]}" ||
+  step "install ${missing[*]}" install install_missing "${missing[@]}" ||
     give_up "install these as root: apt-get install ${missing[*]}"
 }

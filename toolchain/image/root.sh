@@ -43,6 +43,9 @@ write_settings() {
   echo "127.0.0.1 localhost dottrack" >"$root/etc/hosts"
   : >"$root/etc/machine-id"
   : >"$root/etc/resolv.conf"
+  rm -rf "$root"/var/run "$root"/var/lock
+  ln -s /run "$root/var/run"
+  ln -s /run/lock "$root/var/lock"
   mkdir -p "$root"/{boot,proc,sys,dev,run,tmp,root,srv}
   : >"$root/etc/fstab" # the initrd has mounted what there is
 }
