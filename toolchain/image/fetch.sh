@@ -54,7 +54,8 @@ fetch_kernel() {
   local package key
   package=$(kernel_package)
   [[ -n $package ]] || give_up "apt knows no linux-image-arm64"
-  key=$(apt-cache show "$package:arm64" | key_of - "$image_folder/modules_without.txt")
+  key=$(apt-cache show "$package:arm64" |
+    key_of - "$image_folder/modules_without.txt" "$image_folder/fetch.sh")
   current kernel "$key" && return
   rm -rf "$work/kernel" "$work/debs"
   mkdir -p "$work/debs" "$work/kernel/usr/lib"
@@ -63,10 +64,22 @@ fetch_kernel() {
   for deb in "$work"/debs/*.deb; do
     dpkg-deb --fsys-tarfile "$deb" | tar -x -C "$work/kernel" --keep-directory-symlink
   done
-  without "$(echo "$work"/kernel/usr/lib/modules/*/kernel)" "$image_folder/modules_without.txt"
-  depmod -b "$work/kernel" "$(kernel_version)"
+  prune_modules "$(echo "$work"/kernel/usr/lib/modules/*)"
   rm -rf "$work/debs"
   echo "$key" >"$work/kernel.key"
+}
+
+# prune_modules FOLDER: takes out what the list names and whatever cannot do without it.
+prune_modules() {
+  local folder=$1 file needs need
+  depmod -b "$work/kernel" "$(kernel_version)"
+  without "$folder/kernel" "$image_folder/modules_without.txt"
+  while IFS=: read -r file needs; do
+    for need in $needs; do
+      [[ -e $folder/$need ]] || rm -f "$folder/$file"
+    done
+  done <"$folder/modules.dep"
+  depmod -b "$work/kernel" "$(kernel_version)"
 }
 
 kernel_version() { basename "$work"/kernel/usr/lib/modules/*; }
