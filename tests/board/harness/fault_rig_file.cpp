@@ -1,0 +1,58 @@
+#include <fmt/format.h>
+
+#include "tests/board/harness/fault_steps.h"
+
+namespace dottrack::board {
+namespace {
+
+using std::chrono::seconds;
+
+// As a user would who has the card in hand, but with the unit running.
+constexpr const char* kBreak =
+    "rig=$(readlink -f /etc/dottrack/rig.toml) && "
+    "mount -o remount,rw \"$(findmnt -no TARGET -T \"$rig\")\" && cp \"$rig\" /run/rig.toml && "
+    "sed 's/^frame_rate_hz.*/frame_rate_hz = \"often\"/' /run/rig.toml >\"$rig\"";
+constexpr const char* kRepair =
+    "rig=$(readlink -f /etc/dottrack/rig.toml) && cp /run/rig.toml \"$rig\" && sync && "
+    "mount -o remount,ro \"$(findmnt -no TARGET -T \"$rig\")\"";
+constexpr const char* kHangUp = "systemctl kill -s HUP --kill-who=main dottrackd.service";
+
+Result<void> read_anew(Board& board, const char* prepare) {
+  for (const char* command : {prepare, kHangUp}) {
+    if (auto done = board.shell().check(command, kCommandPatience); !done) {
+      return tl::unexpected(done.error());
+    }
+  }
+  return {};
+}
+
+Result<std::string> break_and_repair(Board& board) {
+  const auto process = board.service("MainPID");
+  if (!process) return process;
+  const std::size_t journal = board.journal().size();
+  const std::size_t first = board.poses().size();
+  if (auto done = read_anew(board, kBreak); !done) return tl::unexpected(done.error());
+  auto reason =
+      await_journal(board, journal, {"rig.toml:", "often", "stays as it was"}, seconds(30));
+  const auto on = await_poses(board, first, kPosesToGoOn, kPosePatience);
+  const std::size_t repaired = board.journal().size();
+  if (auto done = read_anew(board, kRepair); !done) return tl::unexpected(done.error());
+  if (!reason) return reason;
+  if (!on) return fail("with the broken file: " + on.error().message);
+  if (auto taken = await_journal(board, repaired, {"configuration is in force"}, seconds(60));
+      !taken) {
+    return taken;
+  }
+  const auto after = await_poses(board, board.poses().size(), kPosesToGoOn, kPosePatience);
+  if (!after) return fail("with the repaired file: " + after.error().message);
+  if (auto same = still_process(board, *process); !same) return tl::unexpected(same.error());
+  return with_right_poses(board, first, "old one kept, reason logged; repaired one taken");
+}
+
+}  // namespace
+
+Finding broken_rig_file(Board& board) {
+  return conclude("broken rig.toml, SIGHUP", break_and_repair(board));
+}
+
+}  // namespace dottrack::board
