@@ -31,6 +31,8 @@ main() {
   local deb=$1 image=$2 tree
   [[ -f $deb ]] || give_up "no package $deb"
   mkdir -p "$work"
+  exec 9>"$work/lock"
+  flock 9 # one at a time
   tree=$(mktemp -d -p "$work" tree.XXXXXX)
   # shellcheck disable=SC2064
   trap "rm -rf '$tree'" EXIT
