@@ -51,7 +51,7 @@ kernel_package() {
 
 # The kernel is unpacked; its own scripts would build an initrd under emulation for minutes.
 fetch_kernel() {
-  local package key
+  local package key deb
   package=$(kernel_package)
   [[ -n $package ]] || give_up "apt knows no linux-image-arm64"
   key=$(apt-cache show "$package:arm64" |
