@@ -14,6 +14,7 @@ constexpr Duration kSilence = std::chrono::seconds(2);
 constexpr std::uint64_t kSilentTicks = 10;
 constexpr std::uint64_t kAnswering = 2;        // ticks without a frame
 constexpr std::uint64_t kPatientFailures = 8;  // in a row; then they are handed back slowly
+constexpr Duration kDrain = std::chrono::seconds(5);
 constexpr Duration kSlowly = std::chrono::milliseconds(200);
 
 }  // namespace
@@ -31,10 +32,14 @@ CameraSlot::~CameraSlot() {
   stream_.reset();
 }
 
+std::shared_ptr<libcamera::Camera> CameraSlot::camera() const {
+  if (!around_.manager) return nullptr;
+  return around_.manager->cameras().get(settings_.id);
+}
+
 Result<void> CameraSlot::start(Time now, bool present) {
   const Duration frame_duration = around_.triggered ? Duration::zero() : around_.period;
-  auto stream =
-      CameraStream::make(around_.manager.get(settings_.id), settings_, frame_duration, exchange_);
+  auto stream = CameraStream::make(camera(), settings_, frame_duration, exchange_);
   if (!stream) return tl::unexpected(stream.error());
   auto memory = (*stream)->map_memory();
   if (!memory) return tl::unexpected(memory.error());
@@ -50,7 +55,7 @@ Result<void> CameraSlot::start(Time now, bool present) {
 
 void CameraSlot::serve(Time now) {
   if (state_ == State::running) feed(now);
-  if (state_ == State::leaving && exchange_.reclaim()) state_ = State::absent;
+  reclaim();
   if (now < next_look_) return;
   next_look_ = now + kLookEvery;
   if (state_ == State::running) watch(now);
@@ -74,9 +79,10 @@ void CameraSlot::feed(Time now) {
 
 // Stopping a silent camera may take the seconds that its bus waits for an answer, and blinds all
 // others meanwhile, so it is done late and ever more rarely. It must never be done to a camera that
-// was just unplugged: libcamera ends the program when it does not know of that yet.
+// was just unplugged: libcamera ends the program when it does not know of that yet. Hence
+// catch_up().
 void CameraSlot::watch(Time now) {
-  if (around_.manager.get(settings_.id) != stream_->camera()) {
+  if (camera() != stream_->camera()) {
     leave();
     return;
   }
@@ -90,12 +96,38 @@ void CameraSlot::watch(Time now) {
   exchange_.note_silence();
   if (now - last_heard_ < restart_in_) return;
   restart_in_ = std::min(2 * restart_in_, kLastRetry);
+  stream_->catch_up();
   leave();
+}
+
+bool CameraSlot::withdraw(Time now) {
+  if (state_ == State::running && is_drained(now)) leave();
+  reclaim();
+  next_look_ = Time::min();
+  return state_ == State::absent;
+}
+
+// Without requests it may be stopped whether or not it was unplugged just now.
+bool CameraSlot::is_drained(Time now) {
+  if (!drained_by_) drained_by_ = now + kDrain;
+  while (exchange_.next_returned()) {
+  }
+  while (exchange_.next_failed()) {
+  }
+  if (camera() != stream_->camera() || exchange_.with_camera() == 0) return true;
+  if (now < *drained_by_) return false;
+  stream_->catch_up();
+  return true;
+}
+
+void CameraSlot::reclaim() {
+  if (state_ == State::leaving && exchange_.reclaim()) state_ = State::absent;
 }
 
 void CameraSlot::leave() {
   exchange_.end();
   stream_.reset();
+  drained_by_.reset();
   state_ = State::leaving;
 }
 

@@ -3,16 +3,16 @@
 
 #include <atomic>
 #include <memory>
-
-#include <libcamera/camera_manager.h>
+#include <optional>
 
 #include "drivers/libcamera/camera_stream.h"
 #include "drivers/libcamera/frame_exchange.h"
+#include "drivers/libcamera/shared_manager.h"
 
 namespace dottrack::drivers {
 
 struct SlotSurroundings {
-  libcamera::CameraManager& manager;
+  const std::shared_ptr<SharedManager>& manager;  // none between two
   Doorbell& tick_bell;
   Doorbell& service_bell;
   const std::atomic<std::uint64_t>& ticks;
@@ -28,11 +28,13 @@ class CameraSlot {
   CameraSlot(const CameraSlot&) = delete;
   CameraSlot& operator=(const CameraSlot&) = delete;
 
-  bool plugged_in() const { return around_.manager.get(settings_.id) != nullptr; }
+  bool plugged_in() const { return camera() != nullptr; }
   // Starts the camera, which is there and not running.
   Result<void> start(Time now, bool present);
   // Hands buffers back to the camera; notices when it is gone, and when it is back.
   void serve(Time now);
+  // Instead of serve(): gives the camera up, and returns true when everything of it is back.
+  bool withdraw(Time now);
 
   FrameExchange& exchange() { return exchange_; }
   const FrameExchange& exchange() const { return exchange_; }
@@ -45,9 +47,12 @@ class CameraSlot {
  private:
   enum class State : std::uint8_t { absent, running, leaving };
 
+  std::shared_ptr<libcamera::Camera> camera() const;
+  bool is_drained(Time now);
   void feed(Time now);
   void watch(Time now);
   void leave();
+  void reclaim();
   void come_back(Time now);
   void retry_later(Time now);
   void take_new_exposure();
@@ -59,6 +64,7 @@ class CameraSlot {
   State state_ = State::absent;
   std::uint64_t silent_ticks_;  // after so many without a frame, the camera is not waited for
   Time last_heard_ = Time::min();
+  std::optional<Time> drained_by_;  // the camera gets no buffers any more
   Time next_look_ = Time::min();
   Time next_feed_of_failed_ = Time::min();
   Duration retry_in_;    // when it does not start

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <thread>
 
 #include "drivers/libcamera/picture_format.h"
 
@@ -15,7 +16,21 @@ namespace {
 namespace controls = libcamera::controls;
 
 constexpr unsigned kBuffers = 5;  // one in the tick, two waiting for it, two with the camera
+constexpr Duration kHotplugDelay = std::chrono::milliseconds(200);  // from kernel to libcamera
 constexpr Duration kTellAgainAfter = std::chrono::seconds(1);
+
+// Goes to libcamera's thread and back.
+class Messenger : public libcamera::Object {
+ public:
+  void arrive() {}
+};
+
+void round_trip(libcamera::Thread* thread) {
+  auto* const messenger = new Messenger;  // libcamera's thread deletes it
+  messenger->moveToThread(thread);
+  messenger->invokeMethod(&Messenger::arrive, libcamera::ConnectionTypeBlocking);
+  messenger->deleteLater();
+}
 
 template <class T>
 T within_limits(const libcamera::ControlInfoMap& offered, const libcamera::Control<T>& control,
@@ -126,6 +141,14 @@ CameraStream::~CameraStream() {
   if (acquired_) camera_->release();
 }
 
+// That thread alternates between messages and the kernel's events: between two round trips it has
+// dealt with all events that were there at the first.
+void CameraStream::catch_up() const {
+  std::this_thread::sleep_for(kHotplugDelay);
+  round_trip(camera_->thread());
+  round_trip(camera_->thread());
+}
+
 bool CameraStream::has(unsigned control) const {
   return camera_->controls().find(control) != camera_->controls().end();
 }
@@ -140,6 +163,7 @@ void CameraStream::queue(std::size_t buffer, Time now) {
     request.reuse(libcamera::Request::ReuseBuffers);
   }
   add_controls(request.controls(), buffer, now);
+  exchange_.note_queued();
   camera_->queueRequest(&request);  // fails only when the camera is gone or stopped
 }
 

@@ -41,6 +41,8 @@ class CameraStream {
   // Whether to wait with whatever the camera is to be told.
   void hold_controls(bool hold) { hold_ = hold; }
   bool has_exposure() const;
+  // Returns when libcamera knows what the kernel knew at the call; blocks as long as it is busy.
+  void catch_up() const;
   const std::shared_ptr<libcamera::Camera>& camera() const { return camera_; }
 
  private:

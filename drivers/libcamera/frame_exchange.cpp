@@ -10,6 +10,7 @@ void FrameExchange::begin(std::unique_ptr<FrameMemory> memory, bool present) {
   const std::lock_guard lock(run_);
   memory_ = std::move(memory);
   running_ = true;
+  with_camera_ = 0;
   last_sequence_.reset();
   sequence_base_ = next_sequence_;
   tick_of_last_frame_ = ticks_.load();
@@ -66,6 +67,7 @@ std::optional<std::size_t> FrameExchange::next_failed() {
 void FrameExchange::completed(const Completion& completion) {
   const std::lock_guard lock(run_);
   if (!running_) return;
+  --with_camera_;
   if (completion.outcome != Completion::Outcome::cancelled) count_sequence(completion.sequence);
   const bool whole = completion.outcome == Completion::Outcome::frame &&
                      memory_->accept(completion.buffer, completion.bytes_used);

@@ -38,8 +38,8 @@ class FrameExchange {
       : tick_bell_(tick), service_bell_(service), ticks_(ticks) {}
 
   // The service's side.
-  // A run begins: at most kMaxBuffers buffers, all with the camera. The camera counts as present at
-  // once, or when its first frame comes.
+  // A run begins: at most kMaxBuffers buffers, none with the camera yet. The camera counts as
+  // present at once, or when its first frame comes.
   void begin(std::unique_ptr<FrameMemory> memory, bool present);
   // The camera counts as away, until its next frame.
   void note_silence();
@@ -47,6 +47,9 @@ class FrameExchange {
   void end();
   // After end(): whether the tick has given everything back. The memory is then free.
   bool reclaim();
+  // Before a buffer is handed to the camera.
+  void note_queued() { ++with_camera_; }
+  unsigned with_camera() const { return with_camera_; }
   // A buffer that the tick is done with, or one that came back without a frame.
   std::optional<std::size_t> next_returned();
   std::optional<std::size_t> next_failed();
@@ -92,6 +95,7 @@ class FrameExchange {
   rtos::SpscRing<Arrival, kMaxBuffers> arrived_;
   rtos::SpscRing<std::uint8_t, kMaxBuffers> returned_;
   rtos::SpscRing<std::uint8_t, kMaxBuffers> failed_;
+  std::atomic<unsigned> with_camera_{0};
   std::atomic<std::uint64_t> handed_to_tick_{0};
   std::uint64_t handed_back_ = 0;
 

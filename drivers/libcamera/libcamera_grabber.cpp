@@ -14,6 +14,7 @@ namespace dottrack::drivers {
 namespace {
 
 constexpr Duration kServeAtLeastEvery = std::chrono::milliseconds(50);
+constexpr Duration kQuiet = std::chrono::seconds(3);
 
 CameraSet both(CameraSet a, CameraSet b) {
   return CameraSet(static_cast<std::uint16_t>(a.bits() & b.bits()));
@@ -44,7 +45,7 @@ Result<void> check(const std::vector<LibcameraSettings>& cameras, Duration perio
 // Everything that outlives a tick. The tick's own are the functions down to give_back_late().
 class LibcameraGrabber::Rig final : public LateFrames {
  public:
-  Rig(std::shared_ptr<libcamera::CameraManager> manager, Duration period, hal::OutputLine* trigger,
+  Rig(std::shared_ptr<SharedManager> manager, Duration period, hal::OutputLine* trigger,
       bool triggered, const rtos::Clock& clock)
       : manager_(std::move(manager)),
         period_(period),
@@ -74,8 +75,10 @@ class LibcameraGrabber::Rig final : public LateFrames {
   void deliver(CameraSet cameras);
   void give_back_held();
   void serve();
+  bool manager_is_due(Time now);
+  void renew_manager(Time now);
 
-  std::shared_ptr<libcamera::CameraManager> manager_;
+  std::shared_ptr<SharedManager> manager_;
   Duration period_;
   bool triggered_;
   hal::OutputLine* trigger_;
@@ -88,6 +91,9 @@ class LibcameraGrabber::Rig final : public LateFrames {
   hal::FrameSet set_;
   CameraSet held_;  // their frames are the tick's until release()
   std::atomic<bool> closing_{false};
+  bool renewing_ = false;  // this and the two below are the service's
+  unsigned plugged_in_ = 0;
+  Time quiet_since_{};
   std::thread service_;
 };
 
@@ -95,7 +101,7 @@ Result<void> LibcameraGrabber::Rig::open(std::vector<LibcameraSettings> cameras,
                                          bool allow_missing) {
   if (const auto bell = tick_bell_.open(); !bell) return bell;
   if (const auto bell = service_bell_.open(); !bell) return bell;
-  const SlotSurroundings around{.manager = *manager_,
+  const SlotSurroundings around{.manager = manager_,
                                 .tick_bell = tick_bell_,
                                 .service_bell = service_bell_,
                                 .ticks = ticks_,
@@ -117,7 +123,7 @@ Result<void> LibcameraGrabber::Rig::start_camera(CameraSlot& slot, bool allow_mi
 
 Error LibcameraGrabber::Rig::no_such_camera(const LibcameraSettings& settings) const {
   std::vector<std::string> ids;
-  for (const auto& camera : manager_->cameras()) ids.push_back('"' + camera->id() + '"');
+  for (const auto& camera : manager_->cameras().cameras()) ids.push_back('"' + camera->id() + '"');
   return {fmt::format("camera {}: there is no camera with the id \"{}\"; there {} {}",
                       settings.name, settings.id, ids.size() == 1 ? "is" : "are",
                       ids.empty() ? "none" : fmt::format("{}", fmt::join(ids, ", ")))};
@@ -135,8 +141,36 @@ void LibcameraGrabber::Rig::serve() {
   while (!closing_) {
     service_bell_.wait(kServeAtLeastEvery);
     const Time now = clock_.now();
-    for (const auto& slot : slots_) slot->serve(now);
+    if (renewing_ || manager_is_due(now)) {
+      renew_manager(now);
+    } else {
+      for (const auto& slot : slots_) slot->serve(now);
+    }
   }
+}
+
+// Not amid a burst of cameras that are plugged in, unless it cannot wait.
+bool LibcameraGrabber::Rig::manager_is_due(Time now) {
+  if (manager_->plugged_in() != plugged_in_) {
+    plugged_in_ = manager_->plugged_in();
+    quiet_since_ = now;
+  }
+  const bool due = manager_->is_worn_out() || (manager_->is_worn() && now - quiet_since_ > kQuiet);
+  return due && SharedManager::has_one_user();
+}
+
+// Step by step: the cameras' buffers have to come back from the tick first.
+void LibcameraGrabber::Rig::renew_manager(Time now) {
+  renewing_ = true;
+  bool free = true;
+  for (const auto& slot : slots_) free = slot->withdraw(now) && free;
+  if (!free) return;
+  manager_.reset();
+  auto fresh = SharedManager::use();
+  if (!fresh) return;  // tried again
+  manager_ = std::move(*fresh);
+  plugged_in_ = 0;
+  renewing_ = false;
 }
 
 void LibcameraGrabber::Rig::trigger(Time now) {
@@ -224,7 +258,7 @@ Result<std::unique_ptr<LibcameraGrabber>> LibcameraGrabber::open(
     std::vector<LibcameraSettings> cameras, Duration period, hal::OutputLine* trigger,
     bool allow_missing, const rtos::Clock& clock, Exposing exposing) {
   if (const auto sound = check(cameras, period); !sound) return tl::unexpected(sound.error());
-  auto manager = shared_manager();
+  auto manager = SharedManager::use();
   if (!manager) return tl::unexpected(manager.error());
   const bool triggered = trigger != nullptr && exposing == Exposing::on_trigger;
   auto rig = std::make_unique<Rig>(std::move(*manager), period, trigger, triggered, clock);

@@ -7,10 +7,10 @@
 namespace dottrack::drivers {
 
 Result<std::vector<CameraListing>> list_cameras() {
-  const auto manager = shared_manager();
+  const auto manager = SharedManager::use();
   if (!manager) return tl::unexpected(manager.error());
   std::vector<CameraListing> listings;
-  for (const auto& camera : (*manager)->cameras()) {
+  for (const auto& camera : (*manager)->cameras().cameras()) {
     const auto model = camera->properties().get(libcamera::properties::Model);
     listings.push_back({.id = camera->id(),
                         .model = model ? std::string(*model) : std::string(),

@@ -24,6 +24,7 @@ class Exchange : public testing::Test {
 
   void complete(std::size_t buffer, std::uint32_t sequence,
                 Completion::Outcome outcome = Completion::Outcome::frame) {
+    exchange_.note_queued();
     exchange_.completed({.outcome = outcome,
                          .buffer = buffer,
                          .bytes_used = kBytes,
@@ -84,6 +85,23 @@ TEST_F(Exchange, SequenceNumbersThatNeverCameAreCounted) {
   complete(1, 4);
   complete(2, 7);
   EXPECT_EQ(exchange_.health().gaps, 2U);
+}
+
+TEST_F(Exchange, BuffersAreWithTheCameraUntilItCompletesThem) {
+  exchange_.note_queued();
+  exchange_.note_queued();
+  EXPECT_EQ(exchange_.with_camera(), 2U);
+  exchange_.completed({.outcome = Completion::Outcome::frame,
+                       .buffer = 0,
+                       .bytes_used = kBytes,
+                       .sequence = 0,
+                       .mid_exposure = {}});
+  exchange_.completed({.outcome = Completion::Outcome::cancelled,
+                       .buffer = 1,
+                       .bytes_used = 0,
+                       .sequence = 0,
+                       .mid_exposure = {}});
+  EXPECT_EQ(exchange_.with_camera(), 0U);
 }
 
 TEST_F(Exchange, ACameraThatLeavesTakesNothingFromTheTick) {

@@ -38,6 +38,7 @@ class Traffic : public testing::Test {
       }
       const auto low = static_cast<std::uint8_t>(sequence);
       shared_.write(buffer, std::array<std::uint8_t, kBytes>{low, 0, low, 0});
+      exchange_.note_queued();
       exchange_.completed({.outcome = Completion::Outcome::frame,
                            .buffer = buffer,
                            .bytes_used = kBytes,
