@@ -15,7 +15,7 @@ using telemetry::record_without_pose;
 config::RigConfig rig() {
   config::RigConfig config;
   config.name = "a \"quoted\"\tname \\ with a tab";
-  config.cameras = {{"left", "", {}}, {"right", "", {}}};
+  config.cameras = {{"left", {}}, {"right", {}}};
   return config;
 }
 
