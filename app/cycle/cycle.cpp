@@ -105,6 +105,7 @@ void Cycle::keep(const hal::FrameSet& frames) {
 void Cycle::broadcast() {
   send(pose_message(record_.result, record_.stamp), record_.due + settings_.send_deadline);
   record_.sent = parts_.clock.now();
+  record_.can_state = parts_.can.state();
 }
 
 // A group that is cut short is of no use to anyone: after the first frame that does not go out, the

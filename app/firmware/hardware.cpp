@@ -81,15 +81,13 @@ Result<void> open_cameras(const config::RigConfig& config, const rtos::Clock& cl
   auto settings = camera_settings(config);
   if (!settings) return tl::unexpected<Error>(settings.error());
   const auto& trigger = config.unit.trigger;
-  const bool follow = trigger && trigger->cameras_follow;
+  const auto exposing = trigger && trigger->cameras_follow ? drivers::Exposing::on_trigger
+                                                           : drivers::Exposing::freely;
   auto cameras = drivers::LibcameraGrabber::open(std::move(*settings), period_of(config),
-                                                 follow ? hardware.trigger.get() : nullptr,
-                                                 /*allow_missing=*/true, clock);
+                                                 hardware.trigger.get(),
+                                                 /*allow_missing=*/true, clock, exposing);
   if (!cameras) return tl::unexpected<Error>(cameras.error());
   hardware.cameras = std::move(*cameras);
-  if (trigger && !follow) {
-    hardware.pulsing = std::make_unique<PulsingGrabber>(*hardware.cameras, *hardware.trigger);
-  }
   return {};
 }
 

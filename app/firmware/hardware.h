@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "app/config/rig_file.h"
-#include "app/firmware/pulsing_grabber.h"
 #include "drivers/libcamera/libcamera_grabber.h"
 #include "drivers/libgpiod/gpio_iris.h"
 #include "drivers/libgpiod/gpio_output_line.h"
@@ -21,11 +20,6 @@ struct Hardware {
   std::unique_ptr<drivers::SocketCanBus> can;
   std::unique_ptr<drivers::GpioIris> irises;
   std::unique_ptr<drivers::LibcameraGrabber> cameras;
-  std::unique_ptr<PulsingGrabber> pulsing;  // null unless the cameras ignore the trigger line
-
-  hal::FrameGrabber& grabber() {
-    return pulsing ? static_cast<hal::FrameGrabber&>(*pulsing) : *cameras;
-  }
 
   // An error names the device. A camera that is configured but not plugged in is none: it joins
   // when it comes, and until then the status names it.

@@ -72,7 +72,7 @@ void Housekeeping::round() {
   if (recording_) recording_->settle();
   if (rounds_++ % kRoundsAStatus != 0) return;
   report_recording();
-  report_hardware();
+  report_heap();
   manager_.status(status());
   if (rounds_ % kRoundsAReminder == 1) {
     for (const std::string& lack : degradation_.lacks()) {
@@ -96,12 +96,7 @@ void Housekeeping::report_recording() {
   }
 }
 
-void Housekeeping::report_hardware() {
-  const drivers::SocketCanCounts can = unit_.hardware().can->counts();
-  if (can.bus_offs > told_can_.bus_offs) {
-    log_line(Severity::warning, fmt::format("CAN: bus off, {} times so far", can.bus_offs));
-  }
-  told_can_ = can;
+void Housekeeping::report_heap() {
   const std::uint64_t heap_calls = unit_.heap_calls();
   if (heap_calls > told_heap_calls_) {
     log_line(Severity::error, fmt::format("{} heap calls in the loop", heap_calls));

@@ -31,7 +31,7 @@ class Housekeeping {
   void run();
   void round();
   void report_recording();
-  void report_hardware();
+  void report_heap();
   std::string status() const;
 
   Unit& unit_;
@@ -42,7 +42,6 @@ class Housekeeping {
   telemetry::Recorder recorder_;
   std::string told_recording_fault_;
   std::uint64_t told_heap_calls_ = 0;
-  drivers::SocketCanCounts told_can_{};
   std::uint64_t rounds_ = 0;
   std::uint64_t ticks_at_last_kick_ = 0;
   std::atomic<bool> ending_{false};

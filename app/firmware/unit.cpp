@@ -102,7 +102,7 @@ void Unit::make_cycle(rtos::Watchdog* watchdog) {
   cycle::CycleSettings settings = cycle::settings_for(config().cameras.size(), period_of(config()));
   settings.can_base_id = config().unit.can.base_id;
   Hardware& hardware = *hardware_;
-  cycle_.emplace(cycle::CycleParts{.grabber = hardware.grabber(),
+  cycle_.emplace(cycle::CycleParts{.grabber = *hardware.cameras,
                                    .iris = *hardware.irises,
                                    .can = *hardware.can,
                                    .tracker = loaded_->tracker,

@@ -7,6 +7,7 @@
 #include "app/core/tick_result.h"
 #include "hal/base/camera_set.h"
 #include "hal/base/time.h"
+#include "hal/can_bus.h"
 
 namespace dottrack::telemetry {
 
@@ -41,6 +42,7 @@ struct CycleRecord {
   StageTimes stages;
   CycleCounters counters;
   CameraSet unhealthy_irises;
+  hal::CanState can_state = hal::CanState::active;
 };
 
 }  // namespace dottrack::telemetry

@@ -9,6 +9,22 @@ namespace {
 
 constexpr std::uint64_t kTicksBetweenLosses = 100;
 
+std::string_view words_of(hal::CanState state) {
+  switch (state) {
+    case hal::CanState::active:
+      return "in good order";
+    case hal::CanState::warning:
+      return "many errors";
+    case hal::CanState::passive:
+      return "error passive: nobody acknowledges, or the bus is disturbed";
+    case hal::CanState::bus_off:
+      return "bus off";
+    case hal::CanState::absent:
+      return "interface down or gone";
+  }
+  return "unknown";
+}
+
 std::uint64_t unsent(const CycleCounters& counters) {
   return counters.sends_failed + counters.sends_without_room;
 }
@@ -22,6 +38,7 @@ void UnitLog::do_write(const CycleRecord& record) {
   ++ticks_;
   note_state(record.result);
   note_cameras(record.result);
+  note_can_state(record.can_state);
   note_can(record.counters);
   note_irises(record.unhealthy_irises);
   note_losses(record.counters);
@@ -52,6 +69,13 @@ void UnitLog::note_cameras(const core::TickResult& result) {
       away_.insert(i);
     }
   }
+}
+
+void UnitLog::note_can_state(hal::CanState state) {
+  if (state == can_state_) return;
+  can_state_ = state;
+  const bool good = state == hal::CanState::active;
+  log_(good ? Severity::info : Severity::warning, fmt::format("CAN: {}", words_of(state)));
 }
 
 void UnitLog::note_can(const CycleCounters& counters) {
@@ -109,6 +133,7 @@ std::string UnitLog::status() const {
   if (!away_.empty()) text += fmt::format(" (without {})", names_of(away_));
   if (!unhealthy_irises_.empty())
     text += fmt::format(", irises of {} stuck", names_of(unhealthy_irises_));
+  if (can_state_ != hal::CanState::active) text += fmt::format(", CAN {}", words_of(can_state_));
   if (can_silent_) text += ", CAN silent";
   return text + fmt::format(", {} ticks, {} missed", ticks_, counters_.deadline_misses);
 }

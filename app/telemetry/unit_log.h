@@ -32,6 +32,7 @@ class UnitLog final : public RecordWriter {
   void note_state(const core::TickResult& result);
   void note_cameras(const core::TickResult& result);
   void note_can(const CycleCounters& counters);
+  void note_can_state(hal::CanState state);
   void note_irises(CameraSet unhealthy);
   void note_losses(const CycleCounters& counters);
   std::string names_of(CameraSet cameras) const;
@@ -44,6 +45,7 @@ class UnitLog final : public RecordWriter {
   std::array<std::uint32_t, kMaxCameras> ticks_away_{};
   CameraSet away_;
   CameraSet unhealthy_irises_;
+  hal::CanState can_state_ = hal::CanState::active;
   bool can_silent_ = false;
   std::uint64_t unsent_at_silence_ = 0;
   CycleCounters counters_;

@@ -87,6 +87,16 @@ TEST_F(UnitLogTest, TellsWhenPosesDoNotGoOutAndHowManyWereLost) {
   EXPECT_THAT(told(), ElementsAre("6 CAN: pose frames go out again, 7 messages were lost"));
 }
 
+TEST_F(UnitLogTest, TellsHowTheControllerStands) {
+  record_.can_state = hal::CanState::bus_off;
+  tick(3);
+  EXPECT_THAT(told(), ElementsAre("4 CAN: bus off"));
+  EXPECT_THAT(log_.status(), HasSubstr(", CAN bus off,"));
+  record_.can_state = hal::CanState::active;
+  tick(3);
+  EXPECT_THAT(told(), ElementsAre("6 CAN: in good order"));
+}
+
 TEST_F(UnitLogTest, AnIrisThatIsStuckIsTold) {
   record_.unhealthy_irises = CameraSet(0b10);
   tick(3);
