@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <ostream>
 #include <string>
 #include <vector>
 
 #include "app/config/rig_file.h"
 #include "tests/unit/config/good_rig.h"
+#include "tests/unit/config/mistake.h"
 
 namespace dottrack::config {
 namespace {
@@ -18,38 +18,12 @@ using test::model_text;
 using test::replaced;
 using test::RigFolder;
 
-std::string complaint_about(const RigFolder& folder) {
-  const Result<RigConfig> config = load_rig(folder.rig());
-  if (config) return "accepted";
-  const std::string prefix = folder.path().string() + "/";
-  std::string message = config.error().message;
-  for (std::size_t at; (at = message.find(prefix)) != std::string::npos;) {
-    message.erase(at, prefix.size());
-  }
-  return message;
-}
-
-struct Mistake {
-  std::string name;
-  std::string from;
-  std::string to;
-  std::string message;
-};
-
-void PrintTo(const Mistake& mistake, std::ostream* out) {
-  *out << mistake.name;
-}
-
 class RigFileRefuses : public testing::TestWithParam<Mistake> {};
 
 TEST_P(RigFileRefuses, WithOneLine) {
   const RigFolder folder;
   folder.write("rig.toml", replaced(kGoodRig, GetParam().from, GetParam().to));
   EXPECT_EQ(complaint_about(folder), GetParam().message);
-}
-
-std::string name_of(const testing::TestParamInfo<Mistake>& info) {
-  return info.param.name;
 }
 
 const std::string kRateWords = "; expected a number of hertz above 0 and up to 1000";

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <ostream>
 #include <string>
 
 #include "app/config/target_file.h"
 #include "tests/unit/config/good_rig.h"
+#include "tests/unit/config/mistake.h"
 
 namespace dottrack::config {
 namespace {
@@ -26,25 +26,10 @@ std::string complaint_about(const std::string& text) {
   return dots ? "accepted" : dots.error().message;
 }
 
-struct Mistake {
-  std::string name;
-  std::string from;
-  std::string to;
-  std::string message;
-};
-
-void PrintTo(const Mistake& mistake, std::ostream* out) {
-  *out << mistake.name;
-}
-
 class TargetFileRefuses : public testing::TestWithParam<Mistake> {};
 
 TEST_P(TargetFileRefuses, WithOneLine) {
   EXPECT_EQ(complaint_about(replaced(kTarget, GetParam().from, GetParam().to)), GetParam().message);
-}
-
-std::string name_of(const testing::TestParamInfo<Mistake>& info) {
-  return info.param.name;
 }
 
 const std::string kHeaders =
