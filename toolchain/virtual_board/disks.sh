@@ -6,15 +6,15 @@
 readonly observer_mb=96
 readonly guest_folder=toolchain/virtual_board/guest
 
-# make_observer OUT.img GPIO_SIM.ko HARDWARE_TEST
+# make_observer OUT.img MODULES HARDWARE_TEST
 make_observer() {
-  local out=$1 module=$2 hardware_test=$3 tree
+  local out=$1 modules=$2 hardware_test=$3 tree
   tree=$(mktemp -d -p "$work" observer.XXXXXX)
   unpack "$tree/debs" can-utils:arm64
   mkdir -p "$tree/disk/bin"
   cp "$tree/debs/usr/bin/candump" "$tree/disk/bin/"
   aarch64-linux-gnu-strip -o "$tree/disk/bin/hardware_test" "$hardware_test"
-  cp "$module" "$tree/disk/gpio-sim.ko"
+  cp "$modules"/*.ko "$tree/disk/"
   cp "$guest_folder/set_up.sh" "$tree/disk/"
   rm -f "$out"
   mke2fs -q -t ext4 -O ^has_journal -d "$tree/disk" "$out" "${observer_mb}M"

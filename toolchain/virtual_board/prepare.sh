@@ -14,8 +14,8 @@ give_up() {
 
 # shellcheck source=toolchain/virtual_board/kernel_debs.sh
 source toolchain/virtual_board/kernel_debs.sh
-# shellcheck source=toolchain/virtual_board/gpio_sim.sh
-source toolchain/virtual_board/gpio_sim.sh
+# shellcheck source=toolchain/virtual_board/kernel_modules.sh
+source toolchain/virtual_board/kernel_modules.sh
 # shellcheck source=toolchain/virtual_board/disks.sh
 source toolchain/virtual_board/disks.sh
 
@@ -23,8 +23,8 @@ main() {
   (($# == 3)) || give_up "expected IMAGE, HARDWARE_TEST and DOTTRACK_BOARD"
   local image=$1 hardware_test=$2 harness=$3
   mkdir -p "$work"
-  build_gpio_sim "$work/gpio-sim.ko" "$(kernel_version)"
-  make_observer "$work/observer.img" "$work/gpio-sim.ko" "$hardware_test"
+  build_modules "$work/modules" "$(kernel_version)"
+  make_observer "$work/observer.img" "$work/modules" "$hardware_test"
   rm -rf "$work/rig"
   "$harness" rig "$scenario" "$work/rig"
   make_card "$image" "$work/board.img" "$work/rig"

@@ -81,8 +81,13 @@ Words emulator_command(const EmulatorSetup& setup) {
        "-drive", fmt::format("if=pflash,format=raw,file={}", setup.variables.string())});
   add_disk(command, setup.image, "board", "snapshot=on");
   add_disk(command, setup.observer, "observer", "readonly=on");
-  add(command, {"-object", "can-bus,id=canbus0"});
-  for (int i = 0; i < 2; ++i) add(command, {"-device", "kvaser_pci,canbus=canbus0"});
+  for (const char* bus : {"canbus0", "canbus1"}) {
+    add(command, {"-object", fmt::format("can-bus,id={}", bus)});
+  }
+  add(command, {"-device", "kvaser_pci,canbus=canbus0"});  // the unit's
+  // The listener's: of another kind, since an emulated kvaser that has received something receives
+  // nonsense after a reset. Its second half is on a bus of its own.
+  add(command, {"-device", "ctucan_pci,canbus0=canbus0,canbus1=canbus1"});
   add(command, {"-device", "i6300esb", "-action", "watchdog=reset"});
   add_socket(command, setup, kControlSocket);
   add(command, {"-mon", fmt::format("chardev={},mode=control", kControlSocket)});

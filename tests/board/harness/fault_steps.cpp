@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <thread>
 #include <utility>
 
@@ -11,13 +12,22 @@
 
 namespace dottrack::board {
 
+bool holds_word(std::string_view text, std::string_view word) {
+  const auto is_part = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  for (auto at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
+    const auto end = at + word.size();
+    if ((at == 0 || !is_part(text[at - 1])) && (end == text.size() || !is_part(text[end])))
+      return true;
+  }
+  return false;
+}
+
 Result<std::string> await_journal(const Board& board, std::size_t first,
                                   std::initializer_list<std::string_view> words,
                                   Duration patience) {
   const auto holds_all = [&](std::string_view line) {
-    return std::all_of(words.begin(), words.end(), [&](std::string_view word) {
-      return line.find(word) != std::string_view::npos;
-    });
+    return std::all_of(words.begin(), words.end(),
+                       [&](std::string_view word) { return holds_word(line, word); });
   };
   const auto found = board.journal().wait_for(holds_all, first, patience);
   if (found) return board.journal().text(*found);
@@ -32,7 +42,7 @@ Result<std::string> await_status(Board& board, std::string_view word, bool holds
   do {
     status = board.service("StatusText");
     if (!status) return status;
-    if ((status->find(word) != std::string::npos) == holds) return status;
+    if (holds_word(*status, word) == holds) return status;
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
   } while (host_now() < deadline);
   return fail(fmt::format("the status still {} \"{}\" after {:.0f} s: {}",

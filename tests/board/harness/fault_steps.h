@@ -12,6 +12,9 @@ inline constexpr auto kCommandPatience = std::chrono::seconds(60);
 inline constexpr auto kPosePatience = std::chrono::seconds(90);
 inline constexpr std::size_t kPosesToGoOn = 10;
 
+// Whether it stands there by itself: cam1 is not in "cam11".
+bool holds_word(std::string_view text, std::string_view word);
+
 // A line of the journal, from line `first` on, that holds all of these words.
 Result<std::string> await_journal(const Board& board, std::size_t first,
                                   std::initializer_list<std::string_view> words, Duration patience);

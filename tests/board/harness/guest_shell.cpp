@@ -30,12 +30,13 @@ bool GuestShell::answers(int attempt) {
 
 Result<void> GuestShell::wait_until_ready(std::size_t heard_before, Duration patience) {
   const Time deadline = host_now() + patience;
-  while (line_.bytes() == heard_before && host_now() < deadline) {
+  while (line_.bytes() == heard_before && host_now() < deadline && !line_.closed()) {
     std::this_thread::sleep_for(milliseconds(50));
   }
-  for (int attempt = 1; host_now() < deadline; ++attempt) {
+  for (int attempt = 1; host_now() < deadline && !line_.closed(); ++attempt) {
     if (answers(attempt)) return {};
   }
+  if (line_.closed()) return fail("the emulator has ended; see emulator.log");
   return fail(fmt::format("the guest's shell did not answer within {:.0f} s; see the console's log",
                           to_seconds(patience)));
 }

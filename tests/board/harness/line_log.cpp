@@ -63,6 +63,11 @@ std::size_t LineLog::size() const {
   return lines_.size();
 }
 
+bool LineLog::closed() const {
+  const std::lock_guard lock(mutex_);
+  return closed_;
+}
+
 std::size_t LineLog::bytes() const {
   const std::lock_guard lock(mutex_);
   return bytes_;

@@ -37,6 +37,7 @@ class LineLog {
   bool send(std::string_view bytes);
 
   std::size_t size() const;   // lines so far
+  bool closed() const;        // nothing more will come
   std::size_t bytes() const;  // also those of a line that is not complete
   std::vector<LoggedLine> from(std::size_t first) const;
 

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <string_view>
 
 #include "tests/board/harness/findings.h"
 #include "tests/board/harness/host_clock.h"
@@ -32,14 +34,40 @@ Finding acquisition(Board& board, std::size_t first) {
                       messages[first].message.dots_used)};
 }
 
+// `no_frames 12, too_few_dots 1`: why ticks ended without a pose.
+std::string reasons_without(const std::vector<ReceivedPose>& messages) {
+  std::map<std::string_view, int> counts;
+  for (const ReceivedPose& pose : messages) {
+    if (!is_pose(pose)) ++counts[core::to_string(pose.message.reason)];
+  }
+  std::string text;
+  for (const auto& [reason, count] : counts) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", reason, count);
+  }
+  return text.empty() ? "none" : text;
+}
+
 Finding poses_received(Board& board, std::size_t first) {
   const auto messages = board.poses().from(first);
   const auto poses = std::count_if(messages.begin(), messages.end(), is_pose);
   const double took_s = seconds_between(messages.front().received, messages.back().received);
   const auto incomplete = board.poses().incomplete_groups();
   return {"poses received", incomplete == 0,
-          fmt::format("{} in {} ticks of {:.2f} s; {} messages incomplete", poses, messages.size(),
-                      took_s / static_cast<double>(messages.size() - 1), incomplete)};
+          fmt::format("{} in {} ticks of {:.2f} s; {} messages incomplete; without: {}", poses,
+                      messages.size(), took_s / static_cast<double>(messages.size() - 1),
+                      incomplete, reasons_without(messages))};
+}
+
+Finding exposures(Board& board) {
+  auto& cameras = board.cameras();
+  std::uint64_t skipped = 0;
+  for (std::size_t i = 0; i < board.scene().cameras.size(); ++i)
+    skipped += cameras.frames_skipped(i);
+  const std::size_t count = cameras.barriers().size();
+  return {"exposures of all cameras together", count > 0,
+          fmt::format("{}, and {} left out as pictures were late; {} frames skipped as the one "
+                      "before was on its way",
+                      count, cameras.late_barriers(), skipped)};
 }
 
 Finding position_error(const PoseCheck& check) {
@@ -110,6 +138,7 @@ std::vector<Finding> nominal_findings(Board& board, std::size_t poses) {
     findings.push_back({"the guest's time", false, asked.error().message});
     return findings;
   }
+  findings.push_back(exposures(board));
   findings.push_back(poses_received(board, begin));
   if (!enough) findings.push_back({"enough poses", false, enough.error().message});
   const PoseCheck check = check_poses(board, begin);

@@ -53,21 +53,28 @@ tell_base() {
   exit 1
 }
 
-listen_on_can() {
-  modprobe -a can_raw kvaser_pci vcan
-  ip link show vcan0 >/dev/null 2>&1 || ip link add vcan0 type vcan
-  ip link set vcan0 up
+# wait_for INTERFACE STATE...: until its state is one of these.
+wait_for() {
   tries=0
-  until [ "$(cat /sys/class/net/can1/operstate 2>/dev/null)" = up ]; do
+  until echo " $2 " | grep -q " $(cat "/sys/class/net/$1/operstate" 2>/dev/null) "; do
     tries=$((tries + 1))
-    [ "$tries" -le 150 ] || { echo "can1 does not come up"; exit 1; }
+    [ "$tries" -le 300 ] || { echo "the CAN interface $1 does not get $2"; exit 1; }
     sleep 0.2
   done
+}
+
+# The unit's controller is can0, since its driver comes first; the listener's is can1.
+listen_on_can() {
+  modprobe -a can_raw can_dev kvaser_pci vcan
+  ip link show vcan0 >/dev/null 2>&1 || ip link add vcan0 type vcan
+  ip link set vcan0 up
+  wait_for can0 "down up"
+  insmod "$here/ctucanfd.ko"
+  wait_for can1 up
   send can "$here/bin/candump" -L can1
 }
 
 modprobe -q virtio_console || true
-send journal journalctl -f -n 2000 -o short-monotonic --no-hostname
 is_mounted "$configfs" || mount -t configfs none "$configfs"
 trace_gpio
 insmod "$here/gpio-sim.ko"
@@ -75,3 +82,6 @@ add_chip dottrack-test
 listen_on_can
 add_chip iris
 tell_base iris
+# Only the journal on disk is followed for as long as the board runs.
+journalctl --flush
+send journal journalctl -f -b -n all -o short-monotonic --no-hostname
