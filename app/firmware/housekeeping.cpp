@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/firmware/journal.h"
+#include "app/firmware/losses.h"
 
 namespace dottrack::firmware {
 namespace {
@@ -16,6 +17,7 @@ using telemetry::Severity;
 
 constexpr std::chrono::milliseconds kRound{100};
 constexpr std::uint64_t kRoundsAStatus = 10;
+constexpr std::uint64_t kRoundsALosses = 600;       // a minute
 constexpr std::uint64_t kRoundsAReminder = 36'000;  // an hour
 
 std::vector<std::string> camera_names(const config::RigConfig& config) {
@@ -73,6 +75,7 @@ void Housekeeping::round() {
   if (rounds_++ % kRoundsAStatus != 0) return;
   report_recording();
   report_heap();
+  if (rounds_ % kRoundsALosses == 1) report_losses();
   manager_.status(status());
   if (rounds_ % kRoundsAReminder == 1) {
     for (const std::string& lack : degradation_.lacks()) {
@@ -102,6 +105,21 @@ void Housekeeping::report_heap() {
     log_line(Severity::error, fmt::format("{} heap calls in the loop", heap_calls));
   }
   told_heap_calls_ = heap_calls;
+}
+
+// A frame lost now and then is no news by itself; a minute's losses are one line a device.
+void Housekeeping::report_losses() {
+  const auto& cameras = unit_.config().cameras;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const drivers::CameraHealth health = unit_.hardware().cameras->health(i);
+    if (const auto line = losses(cameras[i].name, told_cameras_[i], health)) {
+      log_line(Severity::warning, *line);
+    }
+    told_cameras_[i] = health;
+  }
+  const drivers::SocketCanCounts can = unit_.hardware().can->counts();
+  if (const auto line = losses(told_can_, can)) log_line(Severity::warning, *line);
+  told_can_ = can;
 }
 
 std::string Housekeeping::status() const {

@@ -2,6 +2,7 @@
 // What is done beside the loop, at ordinary priority: the journal, the recording, the status, and
 // telling the service manager that the loop turns.
 
+#include <array>
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -32,6 +33,7 @@ class Housekeeping {
   void round();
   void report_recording();
   void report_heap();
+  void report_losses();
   std::string status() const;
 
   Unit& unit_;
@@ -42,6 +44,8 @@ class Housekeeping {
   telemetry::Recorder recorder_;
   std::string told_recording_fault_;
   std::uint64_t told_heap_calls_ = 0;
+  std::array<drivers::CameraHealth, kMaxCameras> told_cameras_{};
+  drivers::SocketCanCounts told_can_{};
   std::uint64_t rounds_ = 0;
   std::uint64_t ticks_at_last_kick_ = 0;
   std::atomic<bool> ending_{false};
