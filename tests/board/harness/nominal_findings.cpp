@@ -25,13 +25,15 @@ Finding first_pose(Board& board, std::size_t first) {
       fmt::format("{:.1f} s after power-on", seconds_between(board.powered_on(), pose.received))};
 }
 
+// The first lock is of lenses as they were left; homing the irises then darkens the pictures.
 Finding acquisition(Board& board, std::size_t first) {
   const auto messages = board.poses().from(0);
   const double took_s = seconds_between(messages.front().received, messages[first].received);
   return {"acquisition", true,
-          fmt::format("in tick {} of the unit, {:.1f} s after the first; {} cameras, {} dots",
+          fmt::format("in tick {} of the unit, {:.1f} s after the first; {} cameras, {} dots; {} "
+                      "locks with the irises' homing",
                       first + 1, took_s, messages[first].message.cameras_used.size(),
-                      messages[first].message.dots_used)};
+                      messages[first].message.dots_used, messages.back().message.reset_count)};
 }
 
 // `no_frames 12, too_few_dots 1`: why ticks ended without a pose.
@@ -129,7 +131,7 @@ std::vector<Finding> nominal_findings(Board& board, std::size_t poses) {
   const auto first = await_poses(board, 0, 1, kFirstPosePatience);
   if (!first) return {{"boot to first pose on CAN", false, first.error().message}};
   const std::size_t begin = *first - 1;
-  std::vector<Finding> findings{first_pose(board, begin), acquisition(board, begin)};
+  std::vector<Finding> findings{first_pose(board, begin)};
   const auto enough = await_poses(
       board, begin, poses,
       std::chrono::duration_cast<Duration>(
@@ -138,6 +140,7 @@ std::vector<Finding> nominal_findings(Board& board, std::size_t poses) {
     findings.push_back({"the guest's time", false, asked.error().message});
     return findings;
   }
+  findings.push_back(acquisition(board, begin));
   findings.push_back(exposures(board));
   findings.push_back(poses_received(board, begin));
   if (!enough) findings.push_back({"enough poses", false, enough.error().message});
