@@ -31,33 +31,36 @@ constexpr std::array<std::uint8_t, 16> kGrey8{'Y',  '8', '0', '0',  0x00, 0x00, 
 // One descriptor: its length is put in front when it is complete.
 class Descriptor {
  public:
-  explicit Descriptor(std::initializer_list<std::uint8_t> type) : bytes_{0} {
-    bytes_.insert(bytes_.end(), type);
+  explicit Descriptor(std::initializer_list<std::uint8_t> type) {
+    raw({type.begin(), type.size()});
   }
   Descriptor& u8(std::uint8_t value) { return number(value, 1); }
   Descriptor& u16(std::uint16_t value) { return number(value, 2); }
   Descriptor& u32(std::uint32_t value) { return number(value, 4); }
   Descriptor& zeros(std::size_t count) {
-    bytes_.insert(bytes_.end(), count, 0);
+    length_ += count;
     return *this;
   }
   Descriptor& raw(std::span<const std::uint8_t> bytes) {
-    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    for (const std::uint8_t byte : bytes) bytes_.at(length_++) = byte;
     return *this;
   }
   Bytes bytes() const {
-    Bytes all = bytes_;
-    all[0] = static_cast<std::uint8_t>(all.size());
+    Bytes all(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(length_));
+    all[0] = static_cast<std::uint8_t>(length_);
     return all;
   }
 
  private:
   Descriptor& number(std::uint32_t value, std::size_t count) {
-    append(bytes_, value, count);
+    for (std::size_t i = 0; i < count; ++i, value >>= 8U) {
+      bytes_.at(length_++) = static_cast<std::uint8_t>(value);
+    }
     return *this;
   }
 
-  Bytes bytes_;
+  std::array<std::uint8_t, 255> bytes_{};  // a descriptor's length is one byte
+  std::size_t length_ = 1;
 };
 
 void join(Bytes& bytes, const Bytes& more) {
