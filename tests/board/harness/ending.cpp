@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cstdio>
+#include <string_view>
 #include <thread>
 
 #include "tests/board/harness/fault_steps.h"
@@ -12,6 +14,7 @@ namespace {
 using std::chrono::seconds;
 
 constexpr auto kTestPatience = seconds(300);
+constexpr int kMeasure_s = 20;
 
 Result<std::string> end_safely(Board& board) {
   const auto ended = board.shell().check("systemctl stop dottrackd.service", seconds(120));
@@ -61,10 +64,49 @@ Result<std::string> run_hardware_tests(Board& board) {
   return figures;
 }
 
+// The middle column of a row of `dottrackd --measure`: count, min, p50, ...
+Result<double> median_ms(const std::string& text, std::string_view row) {
+  const auto at = text.find(row);
+  double count = 0.0;
+  double least = 0.0;
+  double median_us = 0.0;
+  if (at == std::string::npos ||
+      std::sscanf(text.c_str() + at + row.size(), "%lf %lf %lf", &count, &least, &median_us) != 3) {
+    return fail(fmt::format("dottrackd --measure printed no row \"{}\"", row));
+  }
+  return median_us / 1000.0;
+}
+
+// An emulated processor has the host's jitter: times are told, not judged. What a loop may never do
+// is: touch the heap, lose a record.
+Result<std::string> measure(Board& board) {
+  const auto output = board.shell().check(
+      fmt::format("dottrackd --config /etc/dottrack/rig.toml --measure {} 2>/run/measure.log",
+                  kMeasure_s),
+      seconds(kMeasure_s + 120));
+  if (!output) return output;
+  const auto wake = median_ms(*output, "wake-up latency ");
+  if (!wake) return tl::unexpected(wake.error());
+  const auto age = median_ms(*output, "age of a pose at its CAN frame ");
+  if (!age) return tl::unexpected(age.error());
+  constexpr std::string_view kClean = "records dropped 0, heap calls in the loop 0";
+  if (output->find(kClean) == std::string::npos) {
+    return fail(fmt::format("expected \"{}\" in {}", kClean, *output));
+  }
+  return fmt::format(
+      "0 heap calls, {} ticks missed; medians: wake-up {:.2f} ms late, poses {:.0f} ms "
+      "old at their CAN frames",
+      count_after(*output, "ticks missed "), *wake, *age);
+}
+
 }  // namespace
 
 Finding told_to_end(Board& board) {
   return conclude("told to end (SIGTERM)", end_safely(board));
+}
+
+Finding measuring(Board& board) {
+  return conclude("dottrackd --measure", measure(board));
 }
 
 Finding hardware_tests(Board& board) {

@@ -32,8 +32,8 @@ Result<std::string> break_and_repair(Board& board) {
   const std::size_t journal = board.journal().size();
   const std::size_t first = board.poses().size();
   if (auto done = read_anew(board, kBreak); !done) return tl::unexpected(done.error());
-  auto reason =
-      await_journal(board, journal, {"rig.toml:3", "frame_rate_hz", "stays as it was"}, seconds(30));
+  auto reason = await_journal(board, journal, {"rig.toml:3", "frame_rate_hz", "stays as it was"},
+                              seconds(30));
   const auto on = await_poses(board, first, kPosesToGoOn, kPosePatience);
   const std::size_t repaired = board.journal().size();
   if (auto done = read_anew(board, kRepair); !done) return tl::unexpected(done.error());

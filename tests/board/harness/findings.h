@@ -22,6 +22,8 @@ Finding process_stopped(Board& board);
 
 // The end: the service is told to stop and leaves everything safe.
 Finding told_to_end(Board& board);
+// The unit's own measurement, on the emulated board.
+Finding measuring(Board& board);
 // The drivers' own tests against the guest's kernel; the service is stopped.
 Finding hardware_tests(Board& board);
 
