@@ -7,18 +7,23 @@ namespace {
 
 using std::chrono::seconds;
 
+constexpr auto kReopenPatience = seconds(120);
+
 // As a user would who has the card in hand, but with the unit running.
-constexpr const char* kBreak =
+constexpr const char* kEdit =
     "rig=$(readlink -f /etc/dottrack/rig.toml) && "
     "mount -o remount,rw \"$(findmnt -no TARGET -T \"$rig\")\" && cp \"$rig\" /run/rig.toml && "
-    "sed 's/^frame_rate_hz.*/frame_rate_hz = \"often\"/' /run/rig.toml >\"$rig\"";
+    "sed '{}' /run/rig.toml >\"$rig\"";
+constexpr const char* kBreak = R"(s/^frame_rate_hz.*/frame_rate_hz = "often"/)";
+constexpr const char* kExpose = R"(s/^device = .*/&\nexposure_ms = 3.2/)";
+constexpr Duration kExposure = std::chrono::microseconds(3200);
 constexpr const char* kRepair =
     "rig=$(readlink -f /etc/dottrack/rig.toml) && cp /run/rig.toml \"$rig\" && sync && "
     "mount -o remount,ro \"$(findmnt -no TARGET -T \"$rig\")\"";
 constexpr const char* kHangUp = "systemctl kill -s HUP --kill-who=main dottrackd.service";
 
-Result<void> read_anew(Board& board, const char* prepare) {
-  for (const char* command : {prepare, kHangUp}) {
+Result<void> read_anew(Board& board, const std::string& prepare) {
+  for (const std::string& command : {prepare, std::string(kHangUp)}) {
     if (auto done = board.shell().check(command, kCommandPatience); !done) {
       return tl::unexpected(done.error());
     }
@@ -31,7 +36,8 @@ Result<std::string> break_and_repair(Board& board) {
   if (!process) return process;
   const std::size_t journal = board.journal().size();
   const std::size_t first = board.poses().size();
-  if (auto done = read_anew(board, kBreak); !done) return tl::unexpected(done.error());
+  if (auto done = read_anew(board, fmt::format(kEdit, kBreak)); !done)
+    return tl::unexpected(done.error());
   auto reason = await_journal(board, journal, {"rig.toml:3", "frame_rate_hz", "stays as it was"},
                               seconds(30));
   const auto on = await_poses(board, first, kPosesToGoOn, kPosePatience);
@@ -49,10 +55,42 @@ Result<std::string> break_and_repair(Board& board) {
   return with_right_poses(board, first, "old one kept, reason logged; repaired one taken");
 }
 
+// The cameras are closed and opened again with what the file says now, in the same process.
+Result<std::string> change_and_restore(Board& board) {
+  const auto process = board.service("MainPID");
+  if (!process) return process;
+  const std::size_t journal = board.journal().size();
+  const std::size_t first = board.poses().size();
+  if (auto done = read_anew(board, fmt::format(kEdit, kExpose)); !done) {
+    return tl::unexpected(done.error());
+  }
+  const auto opened = await_journal(board, journal, {"devices opened anew"}, kReopenPatience);
+  const auto on = await_poses(board, board.poses().size(), kPosesToGoOn, kPosePatience);
+  const Duration set = board.cameras().exposure(0).exposure;
+  const std::size_t restored = board.journal().size();
+  if (auto done = read_anew(board, kRepair); !done) return tl::unexpected(done.error());
+  if (!opened) return opened;
+  if (!on) return fail("with the other exposure: " + on.error().message);
+  if (set != kExposure) {
+    return fail(fmt::format("the cameras expose {} us; expected {}", set.count() / 1000,
+                            kExposure.count() / 1000));
+  }
+  auto again = await_journal(board, restored, {"devices opened anew"}, kReopenPatience);
+  if (!again) return again;
+  const auto after = await_poses(board, board.poses().size(), kPosesToGoOn, kPosePatience);
+  if (!after) return fail("with the first exposure again: " + after.error().message);
+  if (auto same = still_process(board, *process); !same) return tl::unexpected(same.error());
+  return with_right_poses(board, first, "the cameras expose 3.2 ms, and 4 ms again");
+}
+
 }  // namespace
 
 Finding broken_rig_file(Board& board) {
   return conclude("broken rig.toml, SIGHUP", break_and_repair(board));
+}
+
+Finding other_exposure(Board& board) {
+  return conclude("rig.toml with another exposure, SIGHUP", change_and_restore(board));
 }
 
 }  // namespace dottrack::board

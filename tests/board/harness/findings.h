@@ -17,6 +17,7 @@ std::vector<Finding> nominal_findings(Board& board, std::size_t poses);
 Finding camera_unplugged(Board& board);
 Finding can_bus_down(Board& board);
 Finding broken_rig_file(Board& board);
+Finding other_exposure(Board& board);
 Finding recording_disk_full(Board& board);
 Finding process_stopped(Board& board);
 

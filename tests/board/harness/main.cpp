@@ -39,10 +39,11 @@ struct Fault {
 };
 
 constexpr std::array kFaults{
-    Fault{"camera", camera_unplugged}, Fault{"can", can_bus_down},
-    Fault{"rig", broken_rig_file},     Fault{"disk", recording_disk_full},
-    Fault{"hang", process_stopped},    Fault{"end", told_to_end},
-    Fault{"measure", measuring},       Fault{"tests", hardware_tests},
+    Fault{"camera", camera_unplugged},  Fault{"can", can_bus_down},
+    Fault{"rig", broken_rig_file},      Fault{"exposure", other_exposure},
+    Fault{"disk", recording_disk_full}, Fault{"hang", process_stopped},
+    Fault{"end", told_to_end},          Fault{"measure", measuring},
+    Fault{"tests", hardware_tests},
 };
 
 class Report {
@@ -115,7 +116,8 @@ void add_run(CLI::App& app, Options& options) {
   app.add_option("--variables", emulator.variables, "what UEFI remembers; is written")->required();
   app.add_option("--out", emulator.out, "folder of the report and the logs")->required();
   app.add_option("--poses", options.poses, "how many before the faults")->capture_default_str();
-  app.add_option("--only", options.only, "these faults: camera can rig disk hang end measure tests")
+  app.add_option("--only", options.only,
+                 "these faults: camera can rig exposure disk hang end measure tests")
       ->delimiter(',');
 }
 
