@@ -15,7 +15,7 @@ constexpr const char* kEdit =
     "mount -o remount,rw \"$(findmnt -no TARGET -T \"$rig\")\" && cp \"$rig\" /run/rig.toml && "
     "sed '{}' /run/rig.toml >\"$rig\"";
 constexpr const char* kBreak = R"(s/^frame_rate_hz.*/frame_rate_hz = "often"/)";
-constexpr const char* kExpose = R"(s/^device = .*/&\nexposure_ms = 3.2/)";
+constexpr const char* kExpose = "s/^exposure_ms = .*/exposure_ms = 3.2/";
 constexpr Duration kExposure = std::chrono::microseconds(3200);
 constexpr const char* kRepair =
     "rig=$(readlink -f /etc/dottrack/rig.toml) && cp /run/rig.toml \"$rig\" && sync && "
