@@ -80,7 +80,7 @@ Result<std::string> change_and_restore(Board& board) {
   const auto after = await_poses(board, board.poses().size(), kPosesToGoOn, kPosePatience);
   if (!after) return fail("with the first exposure again: " + after.error().message);
   if (auto same = still_process(board, *process); !same) return tl::unexpected(same.error());
-  return with_right_poses(board, first, "the cameras expose 3.2 ms, and 4 ms again");
+  return with_right_poses(board, first, "the cameras expose 3.2 ms, and then as before");
 }
 
 }  // namespace
