@@ -23,20 +23,23 @@ function(dottrack_quick_to_sanitize target)
   endif()
 endfunction()
 
-# dottrack_test(NAME SOURCES file... [USES target...] [LABELS label...]): one GoogleTest program,
-# registered test by test. The target tests_LABEL builds all programs of that label; the label
+# dottrack_test(NAME [COMPUTES] SOURCES file... [USES target...] [LABELS label...]): one GoogleTest
+# program, registered test by test. COMPUTES: its own code has so much to compute, a slow reference
+# say, that it is optimised with a sanitizer too. The target tests_LABEL builds all programs of that label; the label
 # `threads` is for tests that start threads and so run under the thread sanitizer too.
 set(test_discovery POST_BUILD)
 if(CMAKE_CROSSCOMPILING)
   set(test_discovery PRE_TEST)  # the machine that builds may not be able to run them
 endif()
 function(dottrack_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;USES;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "COMPUTES" "" "SOURCES;USES;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE ${ARG_USES} GTest::gmock GTest::gtest_main dottrack_warnings)
   target_compile_definitions(${name} PRIVATE DOTTRACK_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  dottrack_quick_to_sanitize(${name})
+  if(NOT ARG_COMPUTES)
+    dottrack_quick_to_sanitize(${name})
+  endif()
   set(properties TIMEOUT 600)
   if(ARG_LABELS)
     list(APPEND properties LABELS "${ARG_LABELS}")
