@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "app/core/protocol/bus_load.h"
 #include "hal/base/camera_set.h"
 #include "hal/base/time.h"
 
@@ -60,7 +61,11 @@ struct TriggerConfig {
 
 struct CanConfig {
   std::string interface = "can0";
-  std::uint32_t base_id = 0x300;  // of the first pose frame
+  protocol::Addressing addressing;  // base_id, extended, fd
+  protocol::BitRates bit_rates;     // bit_rate, data_bit_rate
+  double max_load = 0.7;            // share of the bus that the unit may take
+  protocol::Rates rates;            // pose_every, covariance_every ...
+  bool commands = false;            // listen to commands
 
   bool operator==(const CanConfig&) const = default;
 };

@@ -21,6 +21,13 @@ struct Pose {
   double rms_residual_m = 0.0;  // of the triangulated dots against the target in this pose
 };
 
+// How the vehicle moves: from this pose and the one of the tick before.
+struct Motion {
+  bool known = false;                                      // both ticks belong to one lock
+  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();  // of the vehicle's origin, world axes
+  Eigen::Vector3d rates_rad_s = Eigen::Vector3d::Zero();   // vehicle axes
+};
+
 // How one camera saw one dot.
 struct DotView {
   bool used = false;
@@ -73,8 +80,10 @@ struct TickResult {
   Reason reason = Reason::no_frames;
   bool has_pose = false;
   Pose pose;
-  std::uint32_t reset_count = 0;  // acquisitions so far: a new value is a new lock
-  std::uint32_t ticks_lost = 0;   // consecutive ticks without a pose
+  Motion motion;
+  double false_lock_probability = 1.0;  // that the lock is a wrong one, at most; with a pose only
+  std::uint32_t reset_count = 0;        // acquisitions so far: a new value is a new lock
+  std::uint32_t ticks_lost = 0;         // consecutive ticks without a pose
   CameraSet cameras_used;
   std::uint8_t dots_used = 0;
   std::array<DotState, kMaxDots> dots{};

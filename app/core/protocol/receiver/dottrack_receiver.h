@@ -1,0 +1,186 @@
+/* dottrack receiver: from CAN frames to poses a vehicle can trust.
+ *
+ * Two files, C11 (or C++), no heap, no library, no clock: copy dottrack_receiver.h and
+ * dottrack_receiver.c into your program. Layout of the messages: dottrack.dbc. What a receiver must
+ * do, and why: docs/can.md. One receiver a unit; not for several threads at once.
+ *
+ * Give every frame of the bus to dottrack_receiver_push(), with the time at which it arrived on a
+ * clock of yours that never goes back, in microseconds; call dottrack_receiver_poll() when nothing
+ * arrives. Use a pose only while the verdict is DOTTRACK_FRESH and pose.valid is true. */
+#ifndef DOTTRACK_RECEIVER_H
+#define DOTTRACK_RECEIVER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define DOTTRACK_PROTOCOL_VERSION 2
+#define DOTTRACK_DEFAULT_BASE_ID 0x300
+#define DOTTRACK_IDENTIFIERS 64 /* base_id to base_id + 63 */
+#define DOTTRACK_MAX_DOTS 16
+#define DOTTRACK_MAX_CAMERAS 16
+
+typedef struct dottrack_frame {
+  uint32_t id;
+  bool extended; /* 29-bit identifier */
+  uint8_t length;
+  uint8_t data[64];
+} dottrack_frame;
+
+typedef enum dottrack_verdict {
+  DOTTRACK_FOREIGN = 0,  /* not a frame of this unit: nothing changed */
+  DOTTRACK_WAITING,      /* a sound frame; its group is not complete yet */
+  DOTTRACK_FRESH,        /* completes a group that is sound, newer than all before, young enough */
+  DOTTRACK_STALE,        /* completes a group older than the age limit or than the one before; or a
+                            frame that comes after its group was given up; or, from poll, there is
+                            no fresh group within the age limit */
+  DOTTRACK_INCOMPLETE,   /* the group before was given up: frames of it never came */
+  DOTTRACK_CORRUPTED,    /* checksum, length or content is impossible */
+  DOTTRACK_REPEATED,     /* a frame or a group that has been here before */
+  DOTTRACK_OTHER_VERSION /* another layout of the messages than this receiver's */
+} dottrack_verdict;
+
+typedef enum dottrack_state { DOTTRACK_ACQUIRING = 0, DOTTRACK_TRACKING = 1 } dottrack_state;
+
+typedef enum dottrack_visibility {
+  DOTTRACK_NOT_SEEN = 0,
+  DOTTRACK_ONE_CAMERA = 1,
+  DOTTRACK_LOCATED = 2
+} dottrack_visibility;
+
+typedef struct dottrack_dot {
+  uint8_t visibility;    /* dottrack_visibility */
+  uint16_t cameras;      /* one bit a camera */
+  bool has_position;
+  double position_m[3];  /* world */
+  double sigma_m;        /* root of the covariance's trace; negative: not known */
+} dottrack_dot;
+
+/* T_world_vehicle: right-handed, world z up; vehicle x forward, y left, z up. */
+typedef struct dottrack_pose {
+  uint8_t sequence;
+  uint8_t state;         /* dottrack_state */
+  uint8_t reason;        /* why there is no pose: dottrack_reason_text() */
+  bool valid;            /* position and orientation are available */
+  bool out_of_range;     /* there is a pose, but it does not fit into the messages */
+  uint16_t cameras_used; /* one bit a camera */
+  uint8_t dots_used;
+  uint16_t degraded;     /* one bit a reason: dottrack_degraded_text() */
+  uint8_t reset_count;   /* a new value: the pose may have jumped */
+  bool restarted;        /* the unit's clock began anew since the group before */
+  uint64_t capture_us;   /* middle of the exposure, the unit's clock */
+  uint64_t arrival_us;   /* of the frame that completed the group, your clock */
+  uint32_t age_us;       /* at arrival: from the middle of the exposure, with the delay on the way
+                            beyond the shortest that was seen */
+  double position_m[3];
+  double orientation_wxyz[4]; /* unit, Hamilton, vehicle to world */
+  double residual_m;               /* RMS; negative: not known */
+  double false_lock_probability;   /* an upper bound; negative: not known */
+  bool has_covariance;
+  double covariance[36]; /* row-major: x y z roll pitch yaw, metres and radians, world axes */
+  bool has_velocity;
+  double velocity_m_s[3]; /* world axes */
+  bool has_rates;
+  double rates_rad_s[3]; /* vehicle axes */
+  uint8_t dots;          /* reported in this group: 0 when it has no dot messages */
+  dottrack_dot dot[DOTTRACK_MAX_DOTS];
+  bool has_cameras;
+  uint8_t camera_health[DOTTRACK_MAX_CAMERAS]; /* dottrack_health_text() */
+} dottrack_pose;
+
+typedef struct dottrack_unit {
+  bool has_version;
+  uint8_t protocol, major, minor, patch;
+  uint32_t group_period_us;
+  bool has_configuration;
+  uint32_t config_hash;
+  uint8_t target, cameras;
+} dottrack_unit;
+
+/* Of frames and groups since dottrack_receiver_init(). */
+typedef struct dottrack_counts {
+  uint64_t frames;          /* of this unit's identifiers */
+  uint64_t fresh;           /* groups */
+  uint64_t stale;           /* groups */
+  uint64_t repeated_groups;
+  uint64_t incomplete;      /* groups given up with at least one frame */
+  uint64_t lost_groups;     /* never seen at all, by the sequence */
+  uint64_t corrupted;       /* frames, and groups whose content is impossible */
+  uint64_t repeated_frames;
+  uint64_t late_frames;     /* of groups given up or overtaken */
+  uint64_t other_version;   /* frames */
+  uint64_t restarts;        /* of the unit's clock */
+} dottrack_counts;
+
+typedef struct dottrack_settings {
+  uint32_t base_id;
+  bool extended;
+  uint32_t age_limit_us;     /* an older pose is stale */
+  uint32_t group_timeout_us; /* from a group's first frame until it is given up */
+  uint32_t restart_gap_us;   /* silence after which sequence and clock may begin anew */
+} dottrack_settings;
+
+/* Base 0x300, 11 bits, age limit 0.3 s, group timeout 0.1 s, restart gap 1 s. */
+dottrack_settings dottrack_default_settings(void);
+
+/* Plain memory of yours. `counts` and `unit` may be read at any time; the rest is private. */
+typedef struct dottrack_receiver {
+  dottrack_settings settings;
+  dottrack_counts counts;
+  dottrack_unit unit;
+  /* the group being collected, the group before it, the clocks' offset */
+  uint8_t payload[DOTTRACK_IDENTIFIERS][8];
+  uint8_t fd_payload[64];
+  uint64_t received; /* one bit an identifier */
+} dottrack_receiver;
+
+void dottrack_receiver_init(dottrack_receiver *receiver, const dottrack_settings *settings);
+
+/* Takes one frame. `pose` is written only with the verdicts FRESH and STALE of a whole group, and
+ * then whole. Should a frame end one group as incomplete and complete another, the verdict is
+ * that of the complete one; counts has both. */
+dottrack_verdict dottrack_receiver_push(dottrack_receiver *receiver, const dottrack_frame *frame,
+                                        uint64_t arrival_us, dottrack_pose *pose);
+
+/* Without a frame: INCOMPLETE when an open group has just been given up, STALE while the last fresh
+ * group is older than the age limit or there was none, else WAITING. */
+dottrack_verdict dottrack_receiver_poll(dottrack_receiver *receiver, uint64_t now_us);
+
+/* Commands, for units that listen. Makes the frame of one; `sequence` differs from the one before. */
+typedef enum dottrack_command {
+  DOTTRACK_COMMAND_ACQUIRE = 1,
+  DOTTRACK_COMMAND_SET_TARGET = 2,
+  DOTTRACK_COMMAND_REPORT_VERSION = 3
+} dottrack_command;
+
+dottrack_frame dottrack_command_frame(const dottrack_settings *settings, dottrack_command command,
+                                      uint8_t argument, uint16_t token, uint8_t sequence);
+
+typedef struct dottrack_reply {
+  uint8_t command;
+  uint8_t result; /* 0: done; dottrack_result_text() */
+  uint16_t token;
+  uint8_t accepted, rejected; /* commands so far, modulo 256 */
+} dottrack_reply;
+
+/* True and written if the frame is a sound reply of the unit. */
+bool dottrack_read_reply(const dottrack_settings *settings, const dottrack_frame *frame,
+                         dottrack_reply *reply);
+
+/* One word each, never NULL: "too_few_regions"; "unknown" for numbers without a meaning. */
+const char *dottrack_verdict_text(dottrack_verdict verdict);
+const char *dottrack_state_text(uint8_t state);
+const char *dottrack_reason_text(uint8_t reason);
+const char *dottrack_degraded_text(unsigned bit);
+const char *dottrack_health_text(uint8_t health);
+const char *dottrack_result_text(uint8_t result);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
