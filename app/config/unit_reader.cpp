@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "app/core/protocol/pose_message.h"
+#include "app/config/can_reader.h"
 
 namespace dottrack::config {
 namespace {
@@ -22,7 +22,6 @@ constexpr IntegerRule kBacklash{0, 1000, "a whole number from 0 to 1000"};
 constexpr NumberRule kStepRate{0.0, 2000.0, "a number of steps a second above 0 and up to 2000"};
 constexpr NumberRule kLimits{0.0, 1.0, "two numbers, 0 <= narrowest < widest <= 1", true};
 constexpr NumberRule kOpening{0.0, 1.0, "a number from 0 to 1", true};
-constexpr IntegerRule kBaseId{0, protocol::kLastBaseId, "a whole number from 0 to 0x7FB"};
 constexpr IntegerRule kPriority{1, 99, "a whole number from 1 to 99"};
 constexpr IntegerRule kCpu{0, 1023, "a whole number from 0 to 1023"};
 constexpr NumberRule kWatchdog{0.999, 600.0, "a number of seconds from 1 to 600"};
@@ -74,16 +73,6 @@ IrisConfig read_iris(Complaint& complaint, const toml::table& table) {
     reader.complain("opening", shortest(iris.opening), "a number within limits");
   }
   return iris;
-}
-
-void read_can(Complaint& complaint, const toml::table& table, CanConfig& can) {
-  TableReader reader(complaint, table, "[can]", {"interface", "base_id"});
-  can.interface = reader.text("interface", can.interface);
-  if (can.interface.empty() || can.interface.size() > 15) {
-    reader.complain("interface", in_quotes(can.interface), "a network interface such as can0");
-  }
-  can.base_id =
-      static_cast<std::uint32_t>(reader.integer("base_id", static_cast<int>(can.base_id), kBaseId));
 }
 
 void read_trigger(Complaint& complaint, const toml::table& table, UnitConfig& unit) {
