@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/core/acquisition/acquisition.h"
+#include "app/core/estimation/motion.h"
 #include "app/core/geometry/optics.h"
 #include "app/core/image/band.h"
 #include "app/core/image/identify.h"
@@ -75,7 +76,10 @@ struct Tracker::Memory {
   bool started = false;
   bool acquired_last = true;  // the last tick looked at whole images
   State state = State::acquiring;
-  Pose pose;  // the last one found
+  Pose pose;             // the last one found
+  Time pose_time{};      // when it held
+  bool follows = false;  // it is of the tick before and of the same lock
+  double false_lock_probability = 1.0;
   TickResult result;
 };
 
@@ -132,6 +136,9 @@ void Tracker::Memory::confirm(const Pose& acquired) {
     return;
   }
   ++result.reset_count;
+  follows = false;
+  // Of as many chance matches as are expected, at most so many exist (Markov).
+  false_lock_probability = std::min(1.0, result.acquisition.chance_matches);
   accept(followed);
 }
 
@@ -155,7 +162,13 @@ void Tracker::Memory::accept(const tracking::FollowResult& followed) {
   result.has_pose = true;
   result.pose = followed.pose;
   keep_sign(pose.orientation, result.pose.orientation);
+  if (follows) {
+    result.motion = estimation::motion_between(pose, pose_time, result.pose, result.capture_time);
+  }
+  result.false_lock_probability = false_lock_probability;
   pose = result.pose;
+  pose_time = result.capture_time;
+  follows = true;
   result.ticks_lost = 0;
   result.dots = followed.dots;
   result.dots_used = followed.dots_used;
@@ -167,6 +180,7 @@ void Tracker::Memory::accept(const tracking::FollowResult& followed) {
 
 void Tracker::Memory::refuse(Reason reason) {
   result.reason = reason;
+  follows = false;
   ++result.ticks_lost;
   if (result.ticks_lost >= static_cast<std::uint32_t>(rig.limits.lost_after_ticks)) {
     state = State::acquiring;
@@ -194,6 +208,10 @@ const TickResult& Tracker::step(const Frames& frames) {
   }
   m.result.state = m.state;
   return m.result;
+}
+
+void Tracker::forget() {
+  memory_->state = State::acquiring;
 }
 
 std::span<const image::Region> Tracker::regions(std::size_t camera) const {

@@ -26,6 +26,9 @@ class Tracker {
   // frames[i] belongs to camera i of the rig. The result stays valid until the next call.
   const TickResult& step(const std::array<CameraFrame, kMaxCameras>& frames);
 
+  // Drops the lock, if there is one: the next step() looks for the target anew.
+  void forget();
+
   // The regions considered in the last tick: all candidates while acquiring, those in the dots'
   // windows while tracking.
   std::span<const image::Region> regions(std::size_t camera) const;

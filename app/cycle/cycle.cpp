@@ -1,8 +1,6 @@
 #include "app/cycle/cycle.h"
 
-#include <algorithm>
-
-#include "app/core/protocol/pose_encoder.h"
+#include "app/cycle/pose_report.h"
 
 namespace dottrack::cycle {
 namespace {
@@ -24,32 +22,15 @@ class Lap {
   Time start_;
 };
 
-protocol::PoseMessage pose_message(const core::TickResult& result, Time stamp) {
-  protocol::PoseMessage message;
-  message.state = result.state;
-  message.reason = result.reason;
-  message.cameras_used = result.cameras_used;
-  message.dots_used = result.dots_used;
-  message.reset_count = static_cast<std::uint8_t>(result.reset_count);
-  message.mid_exposure = stamp;
-  message.pose_valid = result.has_pose;
-  message.position_m = result.pose.position_m;
-  message.orientation = result.pose.orientation;
-  return message;
-}
-
-hal::CanFrame can_frame(const protocol::PoseFrame& pose) {
-  hal::CanFrame frame;
-  frame.id = pose.id;
-  frame.length = static_cast<std::uint8_t>(pose.data.size());
-  std::copy(pose.data.begin(), pose.data.end(), frame.data.begin());
-  return frame;
-}
-
 }  // namespace
 
-CycleSettings settings_for(std::size_t cameras, Duration period) {
-  return {.cameras = cameras, .frame_deadline = period / 2, .send_deadline = period};
+CycleSettings settings_for(const core::Rig& rig, Duration period,
+                           const protocol::BroadcastSettings& broadcast) {
+  return {.cameras = rig.cameras.size(),
+          .frame_deadline = period / 2,
+          .send_deadline = period,
+          .dots = rig.target.dots.size(),
+          .broadcast = broadcast};
 }
 
 void Cycle::tick(const rtos::Wake& wake) {
@@ -84,7 +65,8 @@ void Cycle::track(const hal::FrameSet& frames) {
   core::TickResult& result = record_.result;
   result = tracker_->step(frames_);
   result.tick = ticks_++;
-  result.reset_count += resets_before_;
+  tracker_resets_ = result.reset_count;
+  result.reset_count = resets();
   keep(frames);
   parts_.grabber.release();
 
@@ -103,23 +85,39 @@ void Cycle::keep(const hal::FrameSet& frames) {
 }
 
 void Cycle::broadcast() {
-  send(pose_message(record_.result, record_.stamp), record_.due + settings_.send_deadline);
+  const Time deadline = record_.due + settings_.send_deadline;
+  const telemetry::CycleCounters before = record_.counters;
+  const RigSize rig{settings_.cameras, settings_.dots};
+  const Time now = parts_.clock.now();
+  if (broadcaster_.tell(pose_report(record_, rig, told_, now), deadline, record_.counters)) {
+    told_ = before;
+  }
+  obey(deadline);
   record_.sent = parts_.clock.now();
   record_.can_state = parts_.can.state();
 }
 
-// A group that is cut short is of no use to anyone: after the first frame that does not go out, the
-// others stay at home.
-void Cycle::send(const protocol::PoseMessage& message, Time deadline) {
-  telemetry::CycleCounters& counters = record_.counters;
-  for (const protocol::PoseFrame& frame :
-       protocol::encode(message, settings_.can_base_id, group_++)) {
-    const hal::SendResult sent = parts_.can.send(can_frame(frame), deadline);
-    if (sent == hal::SendResult::accepted) continue;
-    ++(sent == hal::SendResult::try_again ? counters.sends_without_room : counters.sends_failed);
-    return;
+void Cycle::obey(Time deadline) {
+  if (const auto command = broadcaster_.listen(parts_.clock.now(), deadline)) {
+    broadcaster_.reply(carry_out(*command), deadline);
   }
-  ++counters.messages_sent;
+  record_.counters.commands = broadcaster_.command_counts();
+}
+
+bool Cycle::carry_out(const protocol::Command& command) {
+  switch (command.code) {
+    case protocol::CommandCode::acquire:
+      tracker_->forget();
+      return true;
+    case protocol::CommandCode::set_target:
+      if (parts_.requests == nullptr) return false;
+      parts_.requests->ask_for_target(command.argument);
+      return true;
+    case protocol::CommandCode::report_version:
+      broadcaster_.identify();
+      return true;
+  }
+  return false;
 }
 
 // The lenses' own control is in charge of the irises; the loop notes which of them do not answer.
@@ -137,18 +135,23 @@ void Cycle::record() {
   if (!parts_.records.try_push(record_)) ++record_.counters.records_dropped;
 }
 
-void Cycle::use(core::Tracker& tracker) {
-  resets_before_ = record_.result.reset_count;
+void Cycle::use(core::Tracker& tracker, std::size_t dots,
+                const protocol::IdentityMessage& identity) {
+  resets_before_ = resets();
+  tracker_resets_ = 0;
   tracker_ = &tracker;
+  settings_.dots = dots;
+  broadcaster_.identify_as(identity);
 }
 
 void Cycle::farewell(Time now) {
   for (std::size_t i = 0; i < settings_.cameras; ++i) parts_.iris.release_to_auto(i);
   if (parts_.lamp != nullptr) parts_.lamp->set(false);
-  core::TickResult last;
+  protocol::PoseMessage last;
   last.reason = core::Reason::stopped;
-  last.reset_count = record_.result.reset_count;
-  send(pose_message(last, now), now + settings_.send_deadline);
+  last.reset_count = static_cast<std::uint8_t>(resets());
+  last.mid_exposure = now;
+  broadcaster_.part(last, now + settings_.send_deadline, record_.counters);
 }
 
 }  // namespace dottrack::cycle

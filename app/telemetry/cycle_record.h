@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "app/core/protocol/command.h"
 #include "app/core/tick_result.h"
 #include "hal/base/camera_set.h"
 #include "hal/base/time.h"
@@ -31,6 +32,7 @@ struct CycleCounters {
   std::uint64_t sends_failed = 0;
   std::uint64_t records_dropped = 0;  // the recorder was too slow
   std::uint64_t frames_dropped = 0;   // so was who keeps the images
+  protocol::CommandCounts commands;   // over CAN
 };
 
 struct CycleRecord {

@@ -77,6 +77,38 @@ TEST_F(TrackerTest, ASteadyTargetGivesASteadyPoseAndASmallCovariance) {
   EXPECT_LT(std::sqrt(second.pose.covariance(5, 5)), 0.02);
 }
 
+TEST_F(TrackerTest, TellsHowTheVehicleMovesFromTheSecondTickOfALockOn) {
+  lock();
+  auto frames = room_.frames();
+  EXPECT_FALSE(tracker_.step(frames).motion.known);  // the pictures are of the same instant
+  show(PaintedRoom::pose_at(middle_.position_m.x() + 0.05, middle_.position_m.y(), 0.3));
+  frames = room_.frames();
+  for (CameraFrame& frame : frames) frame.mid_exposure += std::chrono::milliseconds(100);
+  const TickResult& moved = tracker_.step(frames);
+  ASSERT_TRUE(moved.has_pose);
+  ASSERT_TRUE(moved.motion.known);
+  EXPECT_NEAR(moved.motion.velocity_m_s.x(), 0.5, 0.05);
+  EXPECT_NEAR(moved.motion.velocity_m_s.y(), 0.0, 0.05);
+}
+
+TEST_F(TrackerTest, ALockKeepsItsProbabilityOfBeingAWrongOne) {
+  lock();
+  const double at_lock = tracker_.step(room_.frames()).false_lock_probability;
+  EXPECT_LT(at_lock, 0.01);
+  EXPECT_EQ(tracker_.step(room_.frames()).false_lock_probability, at_lock);
+  room_.clear();
+  EXPECT_EQ(tracker_.step(room_.frames()).false_lock_probability, 1.0);
+}
+
+TEST_F(TrackerTest, ForgetsItsLockWhenToldAndLooksAnew) {
+  lock();
+  tracker_.forget();
+  const TickResult& result = tracker_.step(room_.frames());
+  expect_locked(result, middle_);
+  EXPECT_EQ(result.reset_count, 2U);
+  EXPECT_FALSE(result.motion.known);
+}
+
 TEST_F(TrackerTest, StaysOnTargetWhenADotIsHidden) {
   lock();
   room_.clear();
