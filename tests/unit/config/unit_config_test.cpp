@@ -84,7 +84,10 @@ TEST(UnitConfigFile, ReadsEveryKeyOfACamera) {
 
 TEST(UnitConfigFile, ReadsEveryKeyOfTheUnit) {
   const UnitConfig unit = load_or_fail(unit_rig());
-  EXPECT_EQ(unit.can, (CanConfig{.interface = "can1", .base_id = 0x240}));
+  EXPECT_EQ(
+      unit.can,
+      (CanConfig{
+          .interface = "can1", .addressing = {.base_id = 0x240}, .bit_rates = {}, .rates = {}}));
   ASSERT_TRUE(unit.trigger);
   EXPECT_EQ(unit.trigger->line, (LineConfig{.chip = "gpiochip2", .line = 12, .active_low = true}));
   EXPECT_FALSE(unit.trigger->cameras_follow);
@@ -103,7 +106,7 @@ TEST(UnitConfigFile, NothingOfItIsRequired) {
   defaults.cameras[1].device = "/base/i2c/imx296@1";
   EXPECT_EQ(unit, defaults);
   EXPECT_EQ(unit.can.interface, "can0");
-  EXPECT_EQ(unit.can.base_id, 0x300U);
+  EXPECT_EQ(unit.can.addressing.base_id, 0x300U);
   EXPECT_FALSE(unit.trigger || unit.lamp || unit.recording);
 }
 
@@ -135,9 +138,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"Interface", "can1", "a-name-that-is-too-long",
                 ":36: interface is \"a-name-that-is-too-long\"; expected a network interface such "
                 "as can0"},
-        Mistake{"BaseId", "0x240", "0x7FC",
-                ":37: base_id is 2044; expected a whole number from 0 "
-                "to 0x7FB"},
+        Mistake{"BaseId", "0x240", "0x7C1",
+                ":37: base_id is 1985; expected a whole number from 0 to 0x7C0, with extended = "
+                "true to 0x1FFFFFC0"},
         Mistake{"TriggerWithoutLine", "line = 12\n", "",
                 ":38: [trigger] has no key \"line\"" + kLineWords},
         Mistake{"EmptyChip", "chip = \"gpiochip2\"", "chip = \"\"",
