@@ -1,7 +1,7 @@
 #pragma once
 // Hands poses over to an autopilot (PX4, ArduPilot) or whatever else reads MAVLink 2, over UDP.
 //
-// Each valid pose becomes ODOMETRY (#331) and VISION_POSITION_ESTIMATE (#102), one datagram each,
+// Each valid pose becomes VISION_POSITION_ESTIMATE (#102) and ODOMETRY (#331), one datagram each,
 // and once a second of the poses' own time a HEARTBEAT (#0) goes ahead of them. Frames: the local
 // north-east-down frame is made of dottrack's world by north = y, east = x, down = -z; the body is
 // forward-right-down. Time: the middle of the exposure on the clock of dottrack_pose::arrival_us.
@@ -16,10 +16,12 @@
 
 namespace dottrack::workstation {
 
-// Who the messages say they come from.
-struct MavlinkIdentity {
+struct MavlinkOptions {
   std::uint8_t system = 1;       // that of the autopilot that takes the poses
   std::uint8_t component = 197;  // MAV_COMP_ID_VISUAL_INERTIAL_ODOMETRY
+  // Either message is a whole pose. An autopilot that fuses both should get one.
+  bool vision_position_estimate = true;
+  bool odometry = true;
 };
 
 class MavlinkSender {
@@ -27,7 +29,7 @@ class MavlinkSender {
   // "HOST:PORT", HOST being a name, an IPv4 address or an IPv6 address in brackets:
   // "192.168.1.10:14550", "[::1]:14550". One line says what is wrong with it.
   static Result<std::unique_ptr<MavlinkSender>> open(const std::string& host_and_port,
-                                                     const MavlinkIdentity& identity);
+                                                     const MavlinkOptions& options);
   static Result<std::unique_ptr<MavlinkSender>> open(const std::string& host_and_port);
 
   MavlinkSender(const MavlinkSender&) = delete;
