@@ -1,6 +1,8 @@
 #pragma once
 // How much of a CAN bus the unit's messages take, at worst.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "app/core/protocol/addressing.h"
@@ -28,7 +30,8 @@ struct BitRates {
 };
 
 // How long a frame occupies the bus with as many stuff bits as it can have, the interframe space
-// included (ISO 11898-1:2015). `bytes`: 0 to 8, FD up to 64.
+// included (ISO 11898-1:2015). `bytes`: 0 to 8, FD up to 64; an FD frame of a length that does not
+// exist counts as the next longer one. An FD frame switches its bit rate.
 struct FrameShape {
   bool extended = false;
   bool fd = false;
@@ -37,6 +40,21 @@ struct FrameShape {
 unsigned classic_frame_bits(const FrameShape& shape);
 double frame_time_s(const FrameShape& shape, const BitRates& bit_rates);
 
+// One kind of message: how many frames it has, after how many groups it goes out again (0: never;
+// the pose is in every group), and how long its frames take together.
+struct PartLoad {
+  unsigned frames = 0;
+  unsigned every = 0;
+  double time_s = 0.0;
+};
+
+// In the order of Rates: pose, covariance, motion, cameras, dots, identity. In FD the covariance is
+// part of the pose. Of a target with `dots` dots.
+inline constexpr std::size_t kParts = 6;
+std::array<PartLoad, kParts> part_loads(const Addressing& addressing, const Rates& rates,
+                                        const BitRates& bit_rates, unsigned dots);
+
+// Groups out of turn, because the state changed, and replies to commands come on top.
 struct BusLoad {
   double average = 0.0;      // share of the bus, over a long time
   Duration fullest_group{};  // when every message falls together
