@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "app/core/protocol/addressing.h"
+
 namespace dottrack::host_sim {
 
 struct GrabberModel {
@@ -42,9 +44,11 @@ struct CanOutage {
 
 struct CanModel {
   double bit_rate = 500000.0;
-  double load = 0.0;         // share of the bus that others use
-  double error_share = 0.0;  // of the frames that are destroyed and sent again
+  double data_bit_rate = 2000000.0;  // of the data phase of FD frames
+  double load = 0.0;                 // share of the bus that others use
+  double error_share = 0.0;          // of the frames that are destroyed and sent again
   std::vector<CanOutage> bus_off = {};
+  protocol::Addressing addressing = {};  // what the unit's rig file will say
 };
 
 }  // namespace dottrack::host_sim

@@ -24,29 +24,45 @@ Time instant(double seconds) {
 }  // namespace
 
 SimCanBus::SimCanBus(const CanModel& model, std::uint64_t seed, rtos::VirtualClock& clock,
-                     hal::CanBus& log, std::uint32_t can_base_id)
-    : model_(model), seed_(seed), log_(log), clock_(clock), decoder_(can_base_id) {
+                     hal::CanBus& log)
+    : model_(model), seed_(seed), log_(log), clock_(clock) {
+  dottrack_settings settings = dottrack_default_settings();
+  settings.base_id = model.addressing.base_id;
+  settings.extended = model.addressing.extended;
+  dottrack_receiver_init(&receiver_, &settings);
   busy_until_ = settled_ = off_until_ = clock.now();
   std::sort(model_.bus_off.begin(), model_.bus_off.end(),
             [](const CanOutage& a, const CanOutage& b) { return a.from_s < b.from_s; });
 }
 
-double SimCanBus::bits(const hal::CanFrame& frame) {
+SimCanBus::LineBits SimCanBus::bits(const hal::CanFrame& frame) {
   const double data = 8.0 * frame.length;
-  const double stuffed = (frame.extended ? 54.0 : 34.0) + data;  // start of frame to checksum
-  constexpr double kUnstuffed = 13.0;  // checksum delimiter, acknowledge, end, interframe space
-  return stuffed + std::floor((stuffed - 1.0) / 4.0) + kUnstuffed;
+  constexpr double kEnd = 13.0;  // checksum delimiter, acknowledge, end, interframe space
+  if (!frame.fd) {
+    const double stuffed = (frame.extended ? 54.0 : 34.0) + data;  // start of frame to checksum
+    return {stuffed + std::floor((stuffed - 1.0) / 4.0) + kEnd, 0.0};
+  }
+  const double head = frame.extended ? 36.0 : 17.0;  // start of frame to bit rate switch
+  const double stuffed = head + 5.0 + data;          // error state, length, data
+  const double stuff_of_head = std::floor((head - 1.0) / 4.0);
+  const double stuff = std::floor((stuffed - 1.0) / 4.0);
+  // Stuff count, checksum and their fixed stuff bits.
+  const double checksum = frame.length <= 16 ? 4.0 + 17.0 + 6.0 : 4.0 + 21.0 + 7.0;
+  const LineBits bits{head + stuff_of_head + kEnd,
+                      stuffed - head + stuff - stuff_of_head + checksum};
+  return frame.bit_rate_switch ? bits : LineBits{bits.arbitration + bits.data, 0.0};
 }
 
 // Others use their share of the bus, so a frame takes longer by that.
-Duration SimCanBus::bit_times(double bits_on_line) const {
+Duration SimCanBus::bit_times(const LineBits& bits) const {
   const double free_share = std::max(1.0 - model_.load, 1e-3);
-  return Duration(std::llround(bits_on_line / (model_.bit_rate * free_share) * 1e9));
+  const double seconds = bits.arbitration / model_.bit_rate + bits.data / model_.data_bit_rate;
+  return Duration(std::llround(seconds / free_share * 1e9));
 }
 
 bool SimCanBus::off(Time at) const {
   if (at < off_until_) return true;
-  const Duration recovery = bit_times(kRecovery_bits);
+  const Duration recovery = bit_times(kRecovery);
   return std::any_of(model_.bus_off.begin(), model_.bus_off.end(), [&](const CanOutage& outage) {
     return instant(outage.from_s) <= at && at < instant(outage.to_s) + recovery;
   });
@@ -58,7 +74,7 @@ void SimCanBus::settle(Time now) {
     const Time from = instant(outage.from_s);
     if (from <= settled_ || from > now) continue;
     send_until(from);
-    go_off(from, instant(outage.to_s) + bit_times(kRecovery_bits));
+    go_off(from, instant(outage.to_s) + bit_times(kRecovery));
   }
   send_until(now);
   settled_ = std::max(settled_, now);
@@ -66,7 +82,7 @@ void SimCanBus::settle(Time now) {
 
 void SimCanBus::send_until(Time now) {
   while (waiting_ > 0 && queue_[first_].done <= now) {
-    on_the_line(queue_[first_].frame);
+    on_the_line(queue_[first_]);
     first_ = (first_ + 1) % kQueue;
     --waiting_;
   }
@@ -80,13 +96,19 @@ void SimCanBus::go_off(Time from, Time until) {
   error_count_ = 0;
 }
 
-void SimCanBus::on_the_line(const hal::CanFrame& frame) {
+void SimCanBus::on_the_line(const Waiting& waiting) {
   ++counts_.sent;
-  if (frame.extended || frame.fd || frame.length != 8) return;
-  protocol::Payload payload{};
-  std::copy_n(frame.data.begin(), payload.size(), payload.begin());
-  if (auto pose = decoder_.push(frame.id, payload)) {
-    ++counts_.poses;
+  dottrack_frame frame{};
+  frame.id = waiting.frame.id;
+  frame.extended = waiting.frame.extended;
+  frame.length = waiting.frame.length;
+  std::copy(waiting.frame.data.begin(), waiting.frame.data.end(), frame.data);
+  const auto arrival =
+      std::chrono::floor<std::chrono::microseconds>(waiting.done.time_since_epoch());
+  dottrack_pose pose{};
+  if (dottrack_receiver_push(&receiver_, &frame, static_cast<std::uint64_t>(arrival.count()),
+                             &pose) == DOTTRACK_FRESH) {
+    ++counts_.groups;
     last_pose_ = pose;
   }
 }
@@ -97,7 +119,7 @@ Time SimCanBus::transmit(const hal::CanFrame& frame, Time start) {
   Time end = start;
   while (unit_interval(mix(mix(seed_, kErrors), attempts_++)) < model_.error_share) {
     ++counts_.destroyed;
-    end += bit_times(0.5 * bits(frame) + kErrorFrame_bits);
+    end += bit_times(bits(frame)) / 2 + bit_times({kErrorFrame_bits, 0.0});
     error_count_ += kErrorStep;
     if (error_count_ >= kBusOff) return end;
   }
@@ -128,7 +150,7 @@ hal::SendResult SimCanBus::do_send(const hal::CanFrame& frame, Time deadline) {
   ++waiting_;
   if (error_count_ >= kBusOff) {
     ++counts_.bus_offs;
-    go_off(busy_until_, busy_until_ + bit_times(kRecovery_bits));
+    go_off(busy_until_, busy_until_ + bit_times(kRecovery));
   }
   return hal::SendResult::accepted;
 }
@@ -159,7 +181,7 @@ const CanCounts& SimCanBus::counts() {
   return counts_;
 }
 
-const std::optional<protocol::PoseMessage>& SimCanBus::last_pose() {
+const std::optional<dottrack_pose>& SimCanBus::last_pose() {
   settle(clock_.now());
   return last_pose_;
 }

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "app/core/protocol/pose_decoder.h"
+#include "app/core/protocol/receiver/dottrack_receiver.h"
 #include "hal/can_bus.h"
 #include "host_sim/hal/hardware_model.h"
 #include "rtos_shim/virtual_time/virtual_clock.h"
@@ -22,29 +22,33 @@ struct CanCounts {
   std::uint64_t lost = 0;          // accepted, but still in the queue when the bus went off
   std::uint64_t destroyed = 0;     // attempts that an error cut short and that were repeated
   std::uint64_t bus_offs = 0;      // by errors; the model's outages are not counted
-  std::uint64_t poses = 0;         // complete groups on the line
+  std::uint64_t groups = 0;        // complete and fresh, as a vehicle's receiver has them
 };
 
 // An accepted frame is handed to `log` at once, so a log shows when it was accepted. Waiting for
 // room in the queue is a jump of the clock. Nothing but construction allocates.
 class SimCanBus final : public hal::CanBus {
  public:
-  static constexpr std::size_t kQueue = 32;
-  static constexpr double kRecovery_bits = 128.0 * 11.0;
+  // A frame on the line with the most stuffing it can have, interframe space included.
+  struct LineBits {
+    double arbitration = 0.0;  // of a classic frame: all
+    double data = 0.0;         // at the rate of the data phase
+  };
+
+  static constexpr std::size_t kQueue = 64;
+  static constexpr LineBits kRecovery{128.0 * 11.0, 0.0};
 
   // `log` and `clock` outlive this.
-  SimCanBus(const CanModel& model, std::uint64_t seed, rtos::VirtualClock& clock, hal::CanBus& log,
-            std::uint32_t can_base_id = protocol::kDefaultBaseId);
+  SimCanBus(const CanModel& model, std::uint64_t seed, rtos::VirtualClock& clock, hal::CanBus& log);
 
   // A frame of somebody else for receive(); false when 64 wait already.
   bool inject(const hal::CanFrame& frame);
 
   // What has gone out by now.
   const CanCounts& counts();
-  const std::optional<protocol::PoseMessage>& last_pose();
+  const std::optional<dottrack_pose>& last_pose();
 
-  // Bits of a frame on the line with the most stuffing it can have, interframe space included.
-  static double bits(const hal::CanFrame& frame);
+  static LineBits bits(const hal::CanFrame& frame);
 
  private:
   struct Waiting {
@@ -57,12 +61,12 @@ class SimCanBus final : public hal::CanBus {
   hal::CanState do_state() const override;
 
   bool off(Time at) const;
-  Duration bit_times(double bits) const;
+  Duration bit_times(const LineBits& bits) const;
   void settle(Time now);
   void send_until(Time now);
   void go_off(Time from, Time until);
   Time transmit(const hal::CanFrame& frame, Time start);
-  void on_the_line(const hal::CanFrame& frame);
+  void on_the_line(const Waiting& waiting);
 
   CanModel model_;
   std::uint64_t seed_;
@@ -82,8 +86,8 @@ class SimCanBus final : public hal::CanBus {
   std::size_t inbox_first_ = 0;
   std::size_t inbox_waiting_ = 0;
 
-  protocol::PoseDecoder decoder_;
-  std::optional<protocol::PoseMessage> last_pose_;
+  dottrack_receiver receiver_{};
+  std::optional<dottrack_pose> last_pose_;
   CanCounts counts_;
 };
 

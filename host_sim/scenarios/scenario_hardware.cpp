@@ -13,6 +13,10 @@ constexpr NumberRule kOpening{0.0, 1.0, "a number above 0 and up to 1"};
 constexpr NumberRule kIrisSpeed{0.0, 100.0, "a number a second above 0 and up to 100"};
 constexpr NumberRule kDrift{-1.0, 1.0, "a number a second from -1 to 1", true};
 constexpr NumberRule kBitRate{9999.0, 1e6, "a number of bits a second from 10000 to 1000000"};
+constexpr NumberRule kDataBitRate{9999.0, 8e6, "a number of bits a second from 10000 to 8000000"};
+constexpr IntegerRule kBaseId{0, protocol::kLastBaseId, "a whole number from 0 to 1984"};
+constexpr IntegerRule kExtendedBaseId{0, protocol::kLastExtendedBaseId,
+                                      "a whole number from 0 to 536870848"};
 constexpr NumberRule kLoad{0.0, 0.95, "a number from 0 to 0.95", true};
 
 void read_grabber(Complaint& complaint, const toml::table& table, GrabberModel& grabber) {
@@ -60,10 +64,18 @@ void read_iris(Complaint& complaint, const toml::table& table, IrisModel& iris) 
 }
 
 void read_can(Complaint& complaint, const toml::table& table, CanModel& can) {
-  TableReader reader(complaint, table, "[can]", {"bit_rate", "load", "error_share"});
+  TableReader reader(
+      complaint, table, "[can]",
+      {"bit_rate", "data_bit_rate", "load", "error_share", "base_id", "extended", "fd"});
   can.bit_rate = reader.number("bit_rate", can.bit_rate, kBitRate);
+  can.data_bit_rate = reader.number("data_bit_rate", can.data_bit_rate, kDataBitRate);
   can.load = reader.number("load", can.load, kLoad);
   can.error_share = reader.number("error_share", can.error_share, kLoad);
+  can.addressing.extended = reader.boolean("extended", false);
+  can.addressing.fd = reader.boolean("fd", false);
+  can.addressing.base_id = static_cast<std::uint32_t>(
+      reader.integer("base_id", static_cast<int>(can.addressing.base_id),
+                     can.addressing.extended ? kExtendedBaseId : kBaseId));
 }
 
 }  // namespace

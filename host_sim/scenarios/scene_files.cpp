@@ -48,6 +48,15 @@ std::string model_file(const SceneCamera& camera) {
   return camera.name + std::string(ending(camera.camera.lens()));
 }
 
+std::string can_toml(const CanModel& can) {
+  const protocol::Addressing& a = can.addressing;
+  std::string text =
+      fmt::format("\n[can]\nbase_id = {:#x}\nextended = {}\nfd = {}\nbit_rate = {}\n", a.base_id,
+                  a.extended, a.fd, std::lround(can.bit_rate));
+  if (a.fd) text += fmt::format("data_bit_rate = {}\n", std::lround(can.data_bit_rate));
+  return text;
+}
+
 std::string rig_toml(const Scene& scene) {
   const DotAppearance& dots = scene.appearance;
   std::string text = fmt::format("[rig]\nname = \"{}\"\nframe_rate_hz = {:.17g}\n", scene.name,
@@ -63,7 +72,7 @@ std::string rig_toml(const Scene& scene) {
   text += fmt::format(
       "\n[target]\nname = \"rover\"\ndots = \"target.csv\"\nupright = true\nmax_step_m = {:.3f}\n",
       dots.max_step_m);
-  return text;
+  return text + can_toml(scene.can);
 }
 
 std::string target_csv(const TargetLayout& dots) {

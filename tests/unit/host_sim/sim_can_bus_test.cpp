@@ -15,29 +15,29 @@ using std::chrono::seconds;
 
 class SimCan : public testing::Test {
  protected:
-  void make(const CanModel& model) { bus_ = std::make_unique<SimCanBus>(model, 3, clock_, log_); }
+  void make(const CanModel& model) {
+    model_ = model;
+    bus_ = std::make_unique<SimCanBus>(model, 3, clock_, log_);
+  }
   hal::SendResult send(std::uint32_t id = 0x123, Duration patience = Duration(0)) {
     hal::CanFrame frame;
     frame.id = id;
     frame.length = 8;
     return bus_->send(frame, clock_.now() + patience);
   }
-  void broadcast(std::uint64_t group, double x_m) {
+  void broadcast(std::uint8_t sequence, double x_m) {
     protocol::PoseMessage message;
     message.state = core::State::tracking;
     message.pose_valid = true;
     message.position_m.x() = x_m;
-    for (const protocol::PoseFrame& pose :
-         protocol::encode(message, protocol::kDefaultBaseId, group)) {
-      hal::CanFrame frame;
-      frame.id = pose.id;
-      frame.length = 8;
-      std::copy(pose.data.begin(), pose.data.end(), frame.data.begin());
-      bus_->send(frame, clock_.now() + milliseconds(10));
-    }
+    message.mid_exposure = clock_.now();
+    protocol::GroupFrames frames;
+    protocol::encode_group(message, {}, model_.addressing, sequence, frames);
+    for (const hal::CanFrame& frame : frames) bus_->send(frame, clock_.now() + milliseconds(10));
   }
   void wait(Duration time) { clock_.jump_to(clock_.now() + time); }
 
+  CanModel model_;
   rtos::VirtualClock clock_;
   test::ListeningCanBus log_;
   std::unique_ptr<SimCanBus> bus_;
@@ -46,9 +46,23 @@ class SimCan : public testing::Test {
 TEST_F(SimCan, AFrameOfEightBytesTakes135Bits) {
   hal::CanFrame frame;
   frame.length = 8;
-  EXPECT_EQ(SimCanBus::bits(frame), 135.0);
+  EXPECT_EQ(SimCanBus::bits(frame).arbitration, 135.0);
   frame.extended = true;
-  EXPECT_EQ(SimCanBus::bits(frame), 160.0);
+  EXPECT_EQ(SimCanBus::bits(frame).arbitration, 160.0);
+  EXPECT_EQ(SimCanBus::bits(frame).data, 0.0);
+}
+
+// 17 bits to the switch of the rate, 4 stuff bits among them, 13 at the end; 5 bits of control, 512
+// of data, 129 stuff bits, 4 of stuff count, 21 of checksum, 7 fixed stuff bits.
+TEST_F(SimCan, AnFdFrameOf64BytesHasMostOfItsBitsAtTheFastRate) {
+  hal::CanFrame frame;
+  frame.fd = true;
+  frame.bit_rate_switch = true;
+  frame.length = 64;
+  EXPECT_EQ(SimCanBus::bits(frame).arbitration, 34.0);
+  EXPECT_EQ(SimCanBus::bits(frame).data, 678.0);
+  frame.bit_rate_switch = false;
+  EXPECT_EQ(SimCanBus::bits(frame).arbitration, 712.0);
 }
 
 TEST_F(SimCan, FramesGoOutOneAfterAnotherAtTheBitRate) {
@@ -84,17 +98,25 @@ TEST_F(SimCan, AFullQueueIsWaitedForAndNoLongerThanTheDeadline) {
   EXPECT_EQ(bus_->counts().refused_full, 1U);
 }
 
-TEST_F(SimCan, CompletePosesAreCountedAndTheLastIsKept) {
+TEST_F(SimCan, FreshGroupsAreCountedAndTheLastIsKept) {
   make({});
   broadcast(1, 4.0);
-  EXPECT_EQ(bus_->counts().poses, 0U) << "none has gone out yet";
+  EXPECT_EQ(bus_->counts().groups, 0U) << "none has gone out yet";
   wait(milliseconds(2));
-  EXPECT_EQ(bus_->counts().poses, 1U);
+  EXPECT_EQ(bus_->counts().groups, 1U);
   broadcast(2, 5.0);
   wait(milliseconds(2));
-  EXPECT_EQ(bus_->counts().poses, 2U);
+  EXPECT_EQ(bus_->counts().groups, 2U);
   ASSERT_TRUE(bus_->last_pose());
-  EXPECT_NEAR(bus_->last_pose()->position_m.x(), 5.0, 1e-3);
+  EXPECT_NEAR(bus_->last_pose()->position_m[0], 5.0, 1e-3);
+}
+
+TEST_F(SimCan, AnFdPoseUnderAnotherIdentifierIsHeardToo) {
+  make({.addressing = {.base_id = 0x18DA00, .extended = true, .fd = true}});
+  broadcast(1, 4.0);
+  wait(milliseconds(2));
+  EXPECT_EQ(bus_->counts().sent, 1U);
+  EXPECT_EQ(bus_->counts().groups, 1U);
 }
 
 TEST_F(SimCan, AnOutageRefusesFramesLosesTheQueueAndEnds) {
