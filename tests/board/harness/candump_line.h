@@ -4,11 +4,14 @@
 #include <optional>
 #include <string_view>
 
-#include "hal/can_bus.h"
+#include "drivers/candump/candump_line.h"
 
 namespace dottrack::board {
 
-// A data frame with an 11-bit identifier; nothing for any other line.
-std::optional<hal::CanFrame> parse_candump_line(std::string_view line);
+// A data frame; nothing for any other line.
+inline std::optional<hal::CanFrame> parse_candump_line(std::string_view line) {
+  const auto logged = drivers::parse_candump_line(line);
+  return logged ? std::optional(logged->frame) : std::nullopt;
+}
 
 }  // namespace dottrack::board
