@@ -53,11 +53,11 @@ typedef enum dottrack_visibility {
 } dottrack_visibility;
 
 typedef struct dottrack_dot {
-  uint8_t visibility;    /* dottrack_visibility */
-  uint16_t cameras;      /* one bit a camera */
+  uint8_t visibility; /* dottrack_visibility */
+  uint16_t cameras;   /* one bit a camera */
   bool has_position;
-  double position_m[3];  /* world */
-  double sigma_m;        /* root of the covariance's trace; negative: not known */
+  double position_m[3]; /* world */
+  double sigma_m;       /* root of the covariance's trace; negative: not known */
 } dottrack_dot;
 
 /* T_world_vehicle: right-handed, world z up; vehicle x forward, y left, z up. */
@@ -69,17 +69,17 @@ typedef struct dottrack_pose {
   bool out_of_range;     /* there is a pose, but it does not fit into the messages */
   uint16_t cameras_used; /* one bit a camera */
   uint8_t dots_used;
-  uint16_t degraded;     /* one bit a reason: dottrack_degraded_text() */
-  uint8_t reset_count;   /* a new value: the pose may have jumped */
-  bool restarted;        /* the unit's clock began anew since the group before */
-  uint64_t capture_us;   /* middle of the exposure, the unit's clock */
-  uint64_t arrival_us;   /* of the frame that completed the group, your clock */
-  uint32_t age_us;       /* at arrival: from the middle of the exposure, with the delay on the way
-                            beyond the shortest that was seen */
+  uint16_t degraded;   /* one bit a reason: dottrack_degraded_text() */
+  uint8_t reset_count; /* a new value: the pose may have jumped */
+  bool restarted;      /* the unit's clock began anew since the group before */
+  uint64_t capture_us; /* middle of the exposure, the unit's clock */
+  uint64_t arrival_us; /* of the frame that completed the group, your clock */
+  uint32_t age_us;     /* at arrival: from the middle of the exposure, with the delay on the way
+                          beyond the shortest that was seen */
   double position_m[3];
-  double orientation_wxyz[4]; /* unit, Hamilton, vehicle to world */
-  double residual_m;               /* RMS; negative: not known */
-  double false_lock_probability;   /* an upper bound; negative: not known */
+  double orientation_wxyz[4];    /* unit, Hamilton, vehicle to world */
+  double residual_m;             /* RMS; negative: not known */
+  double false_lock_probability; /* an upper bound; negative: not known */
   bool has_covariance;
   double covariance[36]; /* row-major: x y z roll pitch yaw, metres and radians, world axes */
   bool has_velocity;
@@ -103,17 +103,18 @@ typedef struct dottrack_unit {
 
 /* Of frames and groups since dottrack_receiver_init(). */
 typedef struct dottrack_counts {
-  uint64_t frames;          /* of this unit's identifiers */
-  uint64_t fresh;           /* groups */
-  uint64_t stale;           /* groups */
+  uint64_t frames; /* of this unit's identifiers */
+  uint64_t fresh;  /* groups */
+  uint64_t stale;  /* groups */
   uint64_t repeated_groups;
-  uint64_t incomplete;      /* groups given up with at least one frame */
-  uint64_t lost_groups;     /* never seen at all, by the sequence */
-  uint64_t corrupted;       /* frames, and groups whose content is impossible */
+  uint64_t incomplete;  /* groups given up with at least one frame */
+  uint64_t lost_groups; /* never seen at all, by the sequence */
+  uint64_t corrupted;   /* frames, and groups whose content is impossible */
   uint64_t repeated_frames;
-  uint64_t late_frames;     /* of groups given up or overtaken */
-  uint64_t other_version;   /* frames */
-  uint64_t restarts;        /* of the unit's clock */
+  uint64_t late_frames;   /* of groups given up or overtaken */
+  uint64_t other_version; /* frames */
+  uint64_t restarts;      /* of the unit's clock */
+  uint64_t silences;      /* of restart_gap_us and more; what was lost in them is not counted */
 } dottrack_counts;
 
 typedef struct dottrack_settings {
@@ -132,32 +133,41 @@ typedef struct dottrack_receiver {
   dottrack_settings settings;
   dottrack_counts counts;
   dottrack_unit unit;
-  /* the group being collected, the group before it, the clocks' offset */
-  uint8_t payload[DOTTRACK_IDENTIFIERS][8];
-  uint8_t fd_payload[64];
+  uint64_t now_us; /* the latest time that was told */
+  /* the group being collected, or the last one; all times are of your clock */
+  bool begun, open, complete, joining, other_version;
+  uint8_t sequence;
   uint64_t received; /* one bit an identifier */
+  uint64_t opened_at_us, closed_at_us, in_order_at_us;
+  uint8_t data[8 * DOTTRACK_IDENTIFIERS + 64 + 8]; /* 8 bytes an identifier, FdPose, 8 spare */
+  /* the newest group, the newest fresh one, the clocks' offset */
+  bool has_capture, has_fresh, has_shortest, clock_in_doubt;
+  uint64_t capture_us, fresh_at_us;
+  uint32_t fresh_age_us;
+  uint64_t shortest_us, shortest_at_us;
 } dottrack_receiver;
 
-void dottrack_receiver_init(dottrack_receiver *receiver, const dottrack_settings *settings);
+void dottrack_receiver_init(dottrack_receiver* receiver, const dottrack_settings* settings);
 
 /* Takes one frame. `pose` is written only with the verdicts FRESH and STALE of a whole group, and
  * then whole. Should a frame end one group as incomplete and complete another, the verdict is
  * that of the complete one; counts has both. */
-dottrack_verdict dottrack_receiver_push(dottrack_receiver *receiver, const dottrack_frame *frame,
-                                        uint64_t arrival_us, dottrack_pose *pose);
+dottrack_verdict dottrack_receiver_push(dottrack_receiver* receiver, const dottrack_frame* frame,
+                                        uint64_t arrival_us, dottrack_pose* pose);
 
 /* Without a frame: INCOMPLETE when an open group has just been given up, STALE while the last fresh
  * group is older than the age limit or there was none, else WAITING. */
-dottrack_verdict dottrack_receiver_poll(dottrack_receiver *receiver, uint64_t now_us);
+dottrack_verdict dottrack_receiver_poll(dottrack_receiver* receiver, uint64_t now_us);
 
-/* Commands, for units that listen. Makes the frame of one; `sequence` differs from the one before. */
+/* Commands, for units that listen. Makes the frame of one; `sequence` differs from the one before.
+ */
 typedef enum dottrack_command {
   DOTTRACK_COMMAND_ACQUIRE = 1,
   DOTTRACK_COMMAND_SET_TARGET = 2,
   DOTTRACK_COMMAND_REPORT_VERSION = 3
 } dottrack_command;
 
-dottrack_frame dottrack_command_frame(const dottrack_settings *settings, dottrack_command command,
+dottrack_frame dottrack_command_frame(const dottrack_settings* settings, dottrack_command command,
                                       uint8_t argument, uint16_t token, uint8_t sequence);
 
 typedef struct dottrack_reply {
@@ -168,16 +178,16 @@ typedef struct dottrack_reply {
 } dottrack_reply;
 
 /* True and written if the frame is a sound reply of the unit. */
-bool dottrack_read_reply(const dottrack_settings *settings, const dottrack_frame *frame,
-                         dottrack_reply *reply);
+bool dottrack_read_reply(const dottrack_settings* settings, const dottrack_frame* frame,
+                         dottrack_reply* reply);
 
 /* One word each, never NULL: "too_few_regions"; "unknown" for numbers without a meaning. */
-const char *dottrack_verdict_text(dottrack_verdict verdict);
-const char *dottrack_state_text(uint8_t state);
-const char *dottrack_reason_text(uint8_t reason);
-const char *dottrack_degraded_text(unsigned bit);
-const char *dottrack_health_text(uint8_t health);
-const char *dottrack_result_text(uint8_t result);
+const char* dottrack_verdict_text(dottrack_verdict verdict);
+const char* dottrack_state_text(uint8_t state);
+const char* dottrack_reason_text(uint8_t reason);
+const char* dottrack_degraded_text(unsigned bit);
+const char* dottrack_health_text(uint8_t health);
+const char* dottrack_result_text(uint8_t result);
 
 #ifdef __cplusplus
 }
