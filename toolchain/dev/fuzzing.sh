@@ -19,9 +19,10 @@ run_fuzz_targets() {
 
 # fuzz_target NAME
 fuzz_target() {
-  local name=$1 log=$log_folder/fuzz-$1.log found=build/fuzz/corpus/$1 status=0
+  local name=$1 log=$log_folder/fuzz-$1.log found=build/fuzz/corpus/$1 status=0 words=()
   rm -rf "$found" && mkdir -p "$found" out/fuzz
-  fuzzer "$name" -seed=1 -max_total_time="$fuzz_seconds" -max_len=4096 -timeout=10 \
+  [[ ! -f tests/fuzz/$name.dict ]] || words=(-dict="tests/fuzz/$name.dict")
+  fuzzer "$name" "${words[@]}" -seed=1 -max_total_time="$fuzz_seconds" -max_len=4096 -timeout=10 \
     -rss_limit_mb=2048 -print_final_stats=1 "$found" "tests/fuzz/corpus/$name" \
     >"$log" 2>&1 || status=$?
   local runs edges
