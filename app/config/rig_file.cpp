@@ -4,9 +4,9 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
+#include <boost/crc.hpp>
 #include <optional>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "app/config/camera_file.h"
@@ -14,6 +14,7 @@
 #include "app/config/rig_rules.h"
 #include "app/config/table_reader.h"
 #include "app/config/target_file.h"
+#include "app/config/target_reader.h"
 #include "app/config/text_file.h"
 #include "app/config/unit_reader.h"
 
@@ -38,12 +39,14 @@ class RigReader {
   Result<RigConfig> read() {
     const Result<std::string> text = read_text_file(path_);
     if (text) {
+      sum_.process_bytes(text->data(), text->size());
       read_text(*text);
     } else {
       complaint_.add(0, text.error().message, "a rig file");
     }
     if (!complaint_.empty()) return tl::unexpected<Error>(complaint_.first());
-    return std::move(config_);
+    config_.config_hash = sum_.checksum();
+    return with_target(std::move(config_), 0);
   }
 
  private:
@@ -59,26 +62,27 @@ class RigReader {
     TableReader reader(
         complaint_, root, "the rig file",
         {"rig", "camera", "target", "tracking", "can", "trigger", "lamp", "loop", "recording"});
-    if (const auto* table = find_table(root, "rig", false)) read_rig(*table);
+    if (const auto* table = find_table(root, "rig")) read_rig(*table);
     read_cameras(root);
-    if (const auto* table = find_table(root, "target", true)) read_target(*table);
-    if (const auto* table = find_table(root, "tracking", false)) read_tracking(*table);
+    targets_ = read_targets(complaint_, root);
+    if (const auto* table = find_table(root, "tracking")) read_tracking(*table);
     read_unit(complaint_, root, config_.unit);
     if (complaint_.empty()) load_files();
+    if (complaint_.empty()) check_bus_load(root);
   }
 
-  const toml::table* find_table(const toml::table& root, std::string_view key, bool required) {
-    const std::string expected = fmt::format("a table [{}]", key);
+  const toml::table* find_table(const toml::table& root, std::string_view key) {
     const toml::node* node = root.get(key);
-    if (node == nullptr) {
-      if (required) complaint_.add(1, fmt::format("no table [{}]", key), expected);
-      return nullptr;
-    }
+    if (node == nullptr) return nullptr;
     if (!node->is_table()) {
-      complaint_.add(root.find(key)->first.source().begin.line,
-                     fmt::format("{} is {}", key, kind_of(*node)), expected);
+      complaint_.add(line_of(root, key), fmt::format("{} is {}", key, kind_of(*node)),
+                     fmt::format("a table [{}]", key));
     }
     return node->as_table();
+  }
+
+  static std::size_t line_of(const toml::table& table, std::string_view key) {
+    return table.find(key)->first.source().begin.line;
   }
 
   void read_rig(const toml::table& table) {
@@ -163,15 +167,6 @@ class RigReader {
                    "intensity_dn narrower than [0, 255] or min_contrast_dn above 0");
   }
 
-  void read_target(const toml::table& table) {
-    TableReader reader(complaint_, table, "[target]", {"name", "dots", "upright", "max_step_m"});
-    config_.target_name = reader.text("name", config_.target_name);
-    dots_path_ = beside_rig(reader.text("dots"));
-    dots_line_ = reader.line("dots");
-    config_.rig.target.upright = reader.boolean("upright", true);
-    config_.rig.target.max_step_m = reader.number("max_step_m", 0.2, kStep);
-  }
-
   void read_tracking(const toml::table& table) {
     TableReader reader(complaint_, table, "[tracking]", {"max_rms_residual_m", "lost_after_ticks"});
     auto& limits = config_.rig.limits;
@@ -188,17 +183,16 @@ class RigReader {
   // The other files are opened only when the rig file itself is right.
   void load_files() {
     for (std::size_t i = 0; i < config_.cameras.size(); ++i) load_model(i);
-    if (!is_file(dots_path_, "dots", dots_line_, "a target file, relative to the rig file")) return;
-    Result<TargetDots> dots = read_target_file(dots_path_);
-    if (!dots) return complaint_.add(dots.error());
-    config_.rig.target.dots = *dots;
+    for (NamedTarget& target : targets_) load_dots(target);
   }
 
   void load_model(std::size_t index) {
     const std::filesystem::path& path = config_.cameras[index].model_path;
     const std::size_t line = model_lines_[index];
-    if (!is_file(path, "model", line, "a camera model file, relative to the rig file")) return;
-    Result<CameraFile> file = read_camera_file(path);
+    const auto text =
+        load_text("model", path, line, "a camera model file, relative to the rig file");
+    if (!text) return;
+    Result<CameraFile> file = parse_camera_text(*text, path.string());
     if (!file) return complaint_.add(file.error());
     if (!file->dimensions) {
       return complaint_.add(line,
@@ -212,6 +206,17 @@ class RigReader {
     check_dimensions(camera, path, line);
   }
 
+  void load_dots(NamedTarget& target) {
+    const std::filesystem::path path = beside_rig(target.dots);
+    const auto text =
+        load_text("dots", path, target.dots_line, "a target file, relative to the rig file");
+    if (!text) return;
+    Result<TargetDots> dots = parse_target_text(*text, path.string());
+    if (!dots) return complaint_.add(dots.error());
+    target.target.dots = *dots;
+    config_.targets.push_back({std::move(target.name), target.target});
+  }
+
   void check_dimensions(const core::Camera& camera, const std::filesystem::path& path,
                         std::size_t line) {
     const bool fits = camera.width_px >= 1 && camera.width_px <= core::kMaxImageWidth &&
@@ -223,13 +228,31 @@ class RigReader {
                    fmt::format("up to {} x {}", core::kMaxImageWidth, core::kMaxImageHeight));
   }
 
-  bool is_file(const std::filesystem::path& path, std::string_view key, std::size_t line,
-               std::string_view expected) {
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(path, ignored)) return true;
-    complaint_.add(line, fmt::format("{} is {}: no such file", key, in_quotes(path.string())),
-                   expected);
-    return false;
+  std::optional<std::string> load_text(std::string_view key, const std::filesystem::path& path,
+                                       std::size_t line, std::string_view expected) {
+    Result<std::string> text = read_text_file(path);
+    if (!text) {
+      complaint_.add(
+          line, fmt::format("{} is {}: {}", key, in_quotes(path.string()), text.error().message),
+          expected);
+      return std::nullopt;
+    }
+    sum_.process_bytes(text->data(), text->size());
+    return std::move(*text);
+  }
+
+  // A rig without [can] has the defaults, which its frame rate may make too much.
+  void check_bus_load(const toml::table& root) {
+    const auto too_much = overload(can_use(config_));
+    if (!too_much) return;
+    if (root.contains("can")) {
+      complaint_.add(line_of(root, "can"), too_much->what, too_much->expected);
+      return;
+    }
+    const std::string what = fmt::format("{} (no table [can]: the defaults, at frame_rate_hz = {})",
+                                         too_much->what, shortest(config_.frame_rate_hz));
+    complaint_.add(root.contains("rig") ? line_of(root, "rig") : 1, what,
+                   too_much->expected + " under [can]");
   }
 
   std::filesystem::path path_;
@@ -237,14 +260,30 @@ class RigReader {
   RigConfig config_;
   std::vector<std::size_t> name_lines_;
   std::vector<std::size_t> model_lines_;
-  std::filesystem::path dots_path_;
-  std::size_t dots_line_ = 0;
+  std::vector<NamedTarget> targets_;
+  boost::crc_32_type sum_;  // of the bytes of all files so far
 };
 
 }  // namespace
 
 Result<RigConfig> load_rig(const std::filesystem::path& path) {
   return RigReader(path).read();
+}
+
+RigConfig with_target(RigConfig config, std::size_t index) {
+  const TargetEntry& entry = config.targets[index];
+  config.target_index = index;
+  config.target_name = entry.name;
+  config.rig.target = entry.target;
+  return config;
+}
+
+CanUse can_use(const RigConfig& config) {
+  CanUse use{.can = config.unit.can, .dots = 0, .frame_rate_hz = config.frame_rate_hz};
+  for (const TargetEntry& entry : config.targets) {
+    use.dots = std::max(use.dots, static_cast<unsigned>(entry.target.dots.size()));
+  }
+  return use;
 }
 
 }  // namespace dottrack::config

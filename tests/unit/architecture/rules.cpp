@@ -36,7 +36,9 @@ const std::vector<Rule>& rules() {
       {"app/core", {"app/core", "hal/base"}, {"Eigen", "hwy"}},
       {"app/core/geometry", {"app/core/geometry", "hal/base"}, {"Eigen"}},
 
-      {"app/config", {"app/config", "app/core", "hal", "rtos_shim"}, {"Eigen", "fmt", "toml++"}},
+      {"app/config",
+       {"app/config", "app/core", "hal", "rtos_shim"},
+       {"Eigen", "boost/crc.hpp", "fmt", "toml++"}},
       {"app/telemetry",
        {"app/telemetry", "app/core", "hal", "rtos_shim"},
        {"Eigen", "boost", "fmt"}},

@@ -167,7 +167,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Mistake{"NoTarget",
                             "[target]\nname = \"rover\"\ndots = \"target.csv\"\nupright = false\n"
                             "max_step_m = 0.3\n",
-                            "", "rig.toml:1: no table [target]; expected a table [target]"},
+                            "",
+                            "rig.toml:1: no table [target]; expected a table [target], or up to 8 "
+                            "tables [[target]]"},
                     Mistake{"NoDots", "dots = \"target.csv\"\n", "",
                             "rig.toml:21: [target] has no key \"dots\"; expected a text"},
                     Mistake{"DotsMissing", "target.csv", "rover.csv",
