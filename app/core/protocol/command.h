@@ -60,6 +60,8 @@ class CommandReader {
   hal::CanFrame reply(const Verdict& verdict, CommandResult result);
 
  private:
+  CommandResult judge(const Verdict& verdict, std::uint64_t word, Time now);
+
   Addressing addressing_;
   std::uint8_t targets_;
   std::optional<std::uint8_t> last_sequence_;
