@@ -96,6 +96,7 @@ typedef struct layout {
   place position[3], orientation[4], sigma[6];
   place correlation[15]; /* the upper triangle, row by row */
   double correlation_step;
+  int32_t correlation_limit; /* steps to 1 */
 } layout;
 
 #define AT(message, start, length) \
@@ -128,6 +129,7 @@ static const layout classic_layout = {
                     AT(11, 16, 9), AT(11, 25, 9), AT(11, 34, 9), AT(11, 43, 9), AT(11, 52, 9),
                     AT(12, 16, 9), AT(12, 25, 9), AT(12, 34, 9), AT(12, 43, 9), AT(12, 52, 9)},
     .correlation_step = 0.004,
+    .correlation_limit = 250,
 };
 
 static const layout fd_layout = {
@@ -155,6 +157,7 @@ static const layout fd_layout = {
                     FD(447, 7), FD(454, 7), FD(461, 7), FD(468, 7), FD(475, 7), FD(482, 7),
                     FD(489, 7), FD(496, 7), FD(503, 7)},
     .correlation_step = 0.016,
+    .correlation_limit = 62,
 };
 
 #define POSITION_STEP_M 0.0001
@@ -188,30 +191,30 @@ static uint16_t get16(const uint8_t* data, place where) {
   return (uint16_t)get(data, where);
 }
 
-static int32_t get_signed(const uint8_t* data, place where) {
-  const uint32_t sign = (uint32_t)1 << (where.length - 1);
-  return (int32_t)((uint32_t)get(data, where) ^ sign) - (int32_t)sign;
-}
-
-/* The most negative number, and all ones of an unsigned one, stand for "not available". */
-static bool available(const uint8_t* data, place where) {
-  return get(data, where) != BIT(where.length - 1);
-}
+/* All ones stand for "not available". */
 static bool filled(const uint8_t* data, place where) {
   return get(data, where) != BIT(where.length) - 1;
 }
 
-static unsigned how_many_available(const uint8_t* data, const place* where, unsigned count) {
-  unsigned available_ones = 0;
-  for (unsigned i = 0; i < count; ++i) available_ones += available(data, where[i]) ? 1U : 0U;
-  return available_ones;
+/* False: the most negative number, which stands for "not available". */
+static bool get_signed(const uint8_t* data, place where, int32_t* value) {
+  const uint32_t sign = (uint32_t)1 << (where.length - 1);
+  const uint32_t bits = (uint32_t)get(data, where);
+  *value = (int32_t)(bits ^ sign) - (int32_t)sign;
+  return bits != sign;
 }
 
-/* All or none. */
-static bool read_vector(const uint8_t* data, const place* where, double step, double* vector) {
-  if (how_many_available(data, where, 3) != 3) return false;
-  for (unsigned i = 0; i < 3; ++i) vector[i] = get_signed(data, where[i]) * step;
-  return true;
+/* How many of them are available; the others are 0. */
+static unsigned get_numbers(const uint8_t* data, const place* where, unsigned count, double step,
+                            double* numbers) {
+  unsigned available = 0;
+  for (unsigned i = 0; i < count; ++i) {
+    int32_t value = 0;
+    const bool there = get_signed(data, where[i], &value);
+    numbers[i] = there ? value * step : 0.0;
+    available += there ? 1U : 0U;
+  }
+  return available;
 }
 
 /* ---- what a group must be like ---- */
@@ -221,12 +224,11 @@ static unsigned dots_following(const dottrack_receiver* receiver) {
   return dots <= DOTTRACK_MAX_DOTS ? dots : 0;
 }
 
-/* The messages of the open group; 0 as long as the one that announces them is missing. */
+/* The messages of the open group, once Quality or FdPose is there to announce them. */
 static uint64_t announced(const dottrack_receiver* receiver) {
   const layout* l = layout_of(receiver);
   const uint8_t* data = receiver->data;
   const bool fd = l == &fd_layout;
-  if (!fd && (receiver->received & BIT(QUALITY)) == 0) return 0;
   uint64_t messages = fd ? BIT(FD_POSE) : ALWAYS;
   if (!fd && flag(data, l->covariance_follows)) messages |= COVARIANCE;
   if (flag(data, l->motion_follows)) messages |= MOTION;
@@ -234,28 +236,26 @@ static uint64_t announced(const dottrack_receiver* receiver) {
   return messages | ((BIT(2 * dots_following(receiver)) - 1) << FIRST_DOT);
 }
 
-static double square_of_norm(const uint8_t* data, const layout* l) {
-  double sum = 0.0;
-  for (unsigned i = 0; i < 4; ++i) {
-    const double component = get_signed(data, l->orientation[i]) * QUATERNION_STEP;
-    sum += component * component;
-  }
-  return sum;
+static double square_of_norm(const double* q) {
+  return q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
 }
 
 static bool pose_possible(const uint8_t* data, const layout* l) {
-  const unsigned numbers =
-      how_many_available(data, l->position, 3) + how_many_available(data, l->orientation, 4);
+  double position[3];
+  double orientation[4];
+  const unsigned numbers = get_numbers(data, l->position, 3, POSITION_STEP_M, position) +
+                           get_numbers(data, l->orientation, 4, QUATERNION_STEP, orientation);
   if (!flag(data, l->pose_valid)) return numbers == 0;
   if (numbers != 7 || flag(data, l->out_of_range)) return false;
-  const double excess = square_of_norm(data, l) - 1.0;
+  const double excess = square_of_norm(orientation) - 1.0;
   return excess >= -1e-3 && excess <= 1e-3;
 }
 
 static bool covariance_possible(const uint8_t* data, const layout* l) {
   for (unsigned i = 0; i < 15; ++i) {
-    const double value = get_signed(data, l->correlation[i]) * l->correlation_step;
-    if (available(data, l->correlation[i]) && (value < -1.0 || value > 1.0)) return false;
+    int32_t value = 0;
+    const bool there = get_signed(data, l->correlation[i], &value);
+    if (there && (value < -l->correlation_limit || value > l->correlation_limit)) return false;
   }
   return true;
 }
@@ -273,13 +273,12 @@ static place dot_place(unsigned dot, unsigned message, unsigned start, uint8_t l
 static bool content_possible(const dottrack_receiver* receiver) {
   const layout* l = layout_of(receiver);
   const uint8_t* data = receiver->data;
-  const uint64_t messages = announced(receiver);
   if (get(data, l->state) > DOTTRACK_TRACKING) return false;
   if (get(data, l->dots_used) > DOTTRACK_MAX_DOTS) return false;
   if (get(data, l->dots_follow) > DOTTRACK_MAX_DOTS) return false;
   if (!pose_possible(data, l)) return false;
   if (flag(data, l->covariance_follows) && !covariance_possible(data, l)) return false;
-  for (unsigned i = 0; i < DOTTRACK_MAX_CAMERAS && (messages & BIT(CAMERAS)) != 0; ++i) {
+  for (unsigned i = 0; i < DOTTRACK_MAX_CAMERAS && (receiver->announced & BIT(CAMERAS)) != 0; ++i) {
     if (get(data, camera_place(i)) > 6) return false;
   }
   for (unsigned i = 0; i < dots_following(receiver); ++i) {
@@ -315,13 +314,13 @@ static void fill_pose(const uint8_t* data, const layout* l, dottrack_pose* pose)
   pose->residual_m = -1.0;
   pose->false_lock_probability = -1.0;
   if (!pose->valid) return;
-  (void)read_vector(data, l->position, POSITION_STEP_M, pose->position_m);
+  double* q = pose->orientation_wxyz;
+  (void)get_numbers(data, l->position, 3, POSITION_STEP_M, pose->position_m);
+  (void)get_numbers(data, l->orientation, 4, QUATERNION_STEP, q);
   /* One Newton step from 1 to 1 / sqrt(n): off by 3/8 (n - 1)^2, which is below 2e-9 after the
    * rounding to 16 bits, and below 4e-7 for all that pose_possible() lets through. */
-  const double scale = 1.5 - 0.5 * square_of_norm(data, l);
-  for (unsigned i = 0; i < 4; ++i) {
-    pose->orientation_wxyz[i] = get_signed(data, l->orientation[i]) * QUATERNION_STEP * scale;
-  }
+  const double scale = 1.5 - 0.5 * square_of_norm(q);
+  for (unsigned i = 0; i < 4; ++i) q[i] *= scale;
   if (filled(data, l->residual)) pose->residual_m = (double)get(data, l->residual) * 0.00025;
   if (filled(data, l->false_lock)) {
     pose->false_lock_probability = power_of_half((unsigned)get(data, l->false_lock));
@@ -330,18 +329,19 @@ static void fill_pose(const uint8_t* data, const layout* l, dottrack_pose* pose)
 
 static void fill_covariance(const uint8_t* data, const layout* l, dottrack_pose* pose) {
   double sigma[6];
+  double correlation[15];
   if (!pose->valid || !flag(data, l->covariance_follows)) return;
-  if (how_many_available(data, l->correlation, 15) != 15) return;
   for (unsigned i = 0; i < 6; ++i) {
-    if (!filled(data, l->sigma[i])) return;
-    sigma[i] = (double)get(data, l->sigma[i]) * SIGMA_STEP;
+    const uint64_t steps = get(data, l->sigma[i]);
+    if (steps == BIT(16) - 1) return;
+    sigma[i] = (double)steps * SIGMA_STEP;
   }
-  unsigned next = 0;
+  if (get_numbers(data, l->correlation, 15, l->correlation_step, correlation) != 15) return;
+  const double* next = correlation;
   for (unsigned row = 0; row < 6; ++row) {
     pose->covariance[7 * row] = sigma[row] * sigma[row];
     for (unsigned column = row + 1; column < 6; ++column) {
-      const double correlation = get_signed(data, l->correlation[next++]) * l->correlation_step;
-      const double value = correlation * sigma[row] * sigma[column];
+      const double value = *next++ * sigma[row] * sigma[column];
       pose->covariance[6 * row + column] = value;
       pose->covariance[6 * column + row] = value;
     }
@@ -353,8 +353,8 @@ static void fill_motion(const uint8_t* data, dottrack_pose* pose) {
   static const place velocity[3] = {AT(VELOCITY, 16, 16), AT(VELOCITY, 32, 16),
                                     AT(VELOCITY, 48, 16)};
   static const place rates[3] = {AT(RATES, 16, 16), AT(RATES, 32, 16), AT(RATES, 48, 16)};
-  pose->has_velocity = read_vector(data, velocity, 0.001, pose->velocity_m_s);
-  pose->has_rates = read_vector(data, rates, 0.0005, pose->rates_rad_s);
+  pose->has_velocity = get_numbers(data, velocity, 3, 0.001, pose->velocity_m_s) == 3;
+  pose->has_rates = get_numbers(data, rates, 3, 0.0005, pose->rates_rad_s) == 3;
 }
 
 static void fill_dot(const uint8_t* data, unsigned index, dottrack_dot* dot) {
@@ -363,23 +363,22 @@ static void fill_dot(const uint8_t* data, unsigned index, dottrack_dot* dot) {
   const place sigma = dot_place(index, 1, 58, 6);
   dot->visibility = get8(data, dot_place(index, 1, 56, 2));
   dot->cameras = get16(data, dot_place(index, 1, 40, 16));
-  dot->has_position = read_vector(data, position, POSITION_STEP_M, dot->position_m);
+  dot->has_position = get_numbers(data, position, 3, POSITION_STEP_M, dot->position_m) == 3;
   dot->sigma_m = filled(data, sigma) ? (double)get(data, sigma) * 0.0005 : -1.0;
 }
 
 static void fill(const dottrack_receiver* receiver, dottrack_pose* pose) {
   const layout* l = layout_of(receiver);
   const uint8_t* data = receiver->data;
-  const uint64_t messages = announced(receiver);
   memset(pose, 0, sizeof *pose);
   pose->sequence = receiver->sequence;
   fill_status(data, l, pose);
   fill_pose(data, l, pose);
   fill_covariance(data, l, pose);
-  if ((messages & MOTION) != 0) fill_motion(data, pose);
+  if ((receiver->announced & MOTION) != 0) fill_motion(data, pose);
   pose->dots = (uint8_t)dots_following(receiver);
   for (unsigned i = 0; i < pose->dots; ++i) fill_dot(data, i, &pose->dot[i]);
-  pose->has_cameras = (messages & BIT(CAMERAS)) != 0;
+  pose->has_cameras = (receiver->announced & BIT(CAMERAS)) != 0;
   for (unsigned i = 0; i < DOTTRACK_MAX_CAMERAS && pose->has_cameras; ++i) {
     pose->camera_health[i] = get8(data, camera_place(i));
   }
@@ -497,6 +496,7 @@ static void open_group(dottrack_receiver* receiver, uint8_t sequence) {
   receiver->other_version = false;
   receiver->sequence = sequence;
   receiver->received = 0;
+  receiver->announced = 0;
   receiver->opened_at_us = receiver->now_us;
 }
 
@@ -567,8 +567,9 @@ static dottrack_verdict take_grouped(dottrack_receiver* receiver, const dottrack
     ++receiver->counts.other_version;
     return DOTTRACK_OTHER_VERSION;
   }
-  const uint64_t messages = announced(receiver);
-  if (messages == 0 || (receiver->received & messages) != messages) return DOTTRACK_WAITING;
+  if (message == QUALITY || message == FD_POSE) receiver->announced = announced(receiver);
+  const uint64_t missing = receiver->announced & ~receiver->received;
+  if (receiver->announced == 0 || missing != 0) return DOTTRACK_WAITING;
   close_group(receiver, true);
   return judge_group(receiver, pose);
 }

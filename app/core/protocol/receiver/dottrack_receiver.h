@@ -137,7 +137,7 @@ typedef struct dottrack_receiver {
   /* the group being collected, or the last one; all times are of your clock */
   bool begun, open, complete, joining, other_version;
   uint8_t sequence;
-  uint64_t received; /* one bit an identifier */
+  uint64_t received, announced; /* one bit an identifier */
   uint64_t opened_at_us, closed_at_us, in_order_at_us;
   uint8_t data[8 * DOTTRACK_IDENTIFIERS + 64 + 8]; /* 8 bytes an identifier, FdPose, 8 spare */
   /* the newest group, the newest fresh one, the clocks' offset */
