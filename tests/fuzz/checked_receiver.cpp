@@ -120,13 +120,14 @@ void CheckedReceiver::check_pose(const dottrack_pose& pose, dottrack_verdict ver
   require(verdict == DOTTRACK_FRESH || verdict == DOTTRACK_STALE, "a pose is fresh or stale");
   require(pose.arrival_us == now_us_, "a pose arrives with the frame that completes it");
   check_content(pose);
+  if (pose.restarted) had_fresh_ = false;
   if (verdict == DOTTRACK_FRESH) check_order(pose);
 }
 
 // Fresh means young, and newer than all before.
 void CheckedReceiver::check_order(const dottrack_pose& pose) {
   require(pose.age_us <= receiver_.settings.age_limit_us, "a fresh pose is young");
-  if (had_fresh_ && !pose.restarted) {
+  if (had_fresh_) {
     const std::uint64_t later = (pose.capture_us - last_capture_us_) % kClockPeriod_us;
     require(later != 0 && later < kClockPeriod_us / 2, "a fresh pose is newer than those before");
   }

@@ -12,7 +12,7 @@ namespace dottrack::fuzz {
 namespace {
 
 constexpr double kFarthest_m = 838.8608;
-constexpr double kUnit = 1e-9;
+constexpr double kUnit = 1e-6;
 constexpr std::size_t kRows = 6;
 
 bool within(std::span<const double> values, double limit) {

@@ -17,8 +17,9 @@ namespace {
 dottrack_settings settings_from(ByteSource& source) {
   dottrack_settings settings = dottrack_default_settings();
   const std::uint8_t choice = source.byte();
-  if ((choice & 1U) != 0) settings.base_id = static_cast<std::uint32_t>(source.number(4));
   settings.extended = (choice & 2U) != 0;
+  const std::uint32_t bases = (settings.extended ? 0x20000000U : 0x800U) - DOTTRACK_IDENTIFIERS + 1;
+  if ((choice & 1U) != 0) settings.base_id = static_cast<std::uint32_t>(source.number(4)) % bases;
   if ((choice & 4U) != 0) settings.age_limit_us = static_cast<std::uint32_t>(source.number(4));
   if ((choice & 8U) != 0) settings.group_timeout_us = static_cast<std::uint32_t>(source.number(4));
   if ((choice & 16U) != 0) settings.restart_gap_us = static_cast<std::uint32_t>(source.number(4));
@@ -125,6 +126,8 @@ class Session {
       require(text(number) != nullptr, "there is a word for every number");
     }
     require(dottrack_degraded_text(number) != nullptr, "there is a word for every bit");
+    require(dottrack_verdict_text(static_cast<dottrack_verdict>(number % 8)) != nullptr,
+            "there is a word for every verdict");
   }
 
   ByteSource& source_;

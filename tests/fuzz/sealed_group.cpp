@@ -5,7 +5,7 @@
 namespace dottrack::fuzz {
 namespace {
 
-constexpr std::uint32_t kStatus = 0, kTime = 1, kQuality = 2, kPosition2 = 4;
+constexpr std::uint32_t kStatus = 0, kTime = 1, kQuality = 2, kPosition = 3, kPosition2 = 4;
 constexpr std::uint32_t kOrientation = 5, kVelocity = 6, kRates = 7, kSigmaPosition = 8;
 constexpr std::uint32_t kCorrelation3 = 12, kCameras = 13, kDots = 32;
 constexpr std::size_t kBefore = 2, kBeforeFd = 3;  // bytes of checksum and sequence
@@ -41,19 +41,29 @@ std::uint8_t follow_byte(const Shape& shape) {
                                    (shape.cameras ? 1U << 7U : 0U));
 }
 
+constexpr std::uint64_t kNoMetres = 0x800000, kNoComponent = 0x8000;  // not available
 // Half a turn about an axis between x and y: 0.6 and 0.8 in steps of 0.000031.
-constexpr std::uint64_t kSixTenths = 19355, kEightTenths = 25806;
+constexpr std::array<std::uint64_t, 4> kHalfTurn{0, 19355, 25806, 0};
+
+std::uint64_t component(const Shape& shape, std::size_t index) {
+  return shape.valid ? kHalfTurn[index] : kNoComponent;
+}
 
 void make_plausible(dottrack_frame& frame, std::uint32_t offset, const Shape& shape) {
   if (offset == kStatus) {
     frame.data[2] = status_byte(shape);
     frame.data[6] &= 15U;
   }
-  if (offset == kPosition2) write(frame, 5, 2, 0);
-  if (offset == kOrientation) {
-    write(frame, 2, 2, kSixTenths);
-    write(frame, 4, 2, kEightTenths);
-    write(frame, 6, 2, 0);
+  if (offset == kPosition && !shape.valid) {
+    write(frame, 2, 3, kNoMetres);
+    write(frame, 5, 3, kNoMetres);
+  }
+  if (offset == kPosition2) {
+    if (!shape.valid) write(frame, 2, 3, kNoMetres);
+    write(frame, 5, 2, component(shape, 0));
+  }
+  for (std::size_t i = 1; i < 4 && offset == kOrientation; ++i) {
+    write(frame, 2 * i, 2, component(shape, i));
   }
 }
 
@@ -61,10 +71,8 @@ void make_plausible_fd(dottrack_frame& frame, const Shape& shape, std::uint64_t 
   frame.data[3] = status_byte(shape);
   frame.data[7] = static_cast<std::uint8_t>((frame.data[7] & 15U) | (follow_byte(shape) & 0xE0U));
   write(frame, 9, 6, capture_us);
-  write(frame, 30, 2, 0);
-  write(frame, 32, 2, kSixTenths);
-  write(frame, 34, 2, kEightTenths);
-  write(frame, 36, 2, 0);
+  for (std::size_t i = 0; i < 3 && !shape.valid; ++i) write(frame, 21 + 3 * i, 3, kNoMetres);
+  for (std::size_t i = 0; i < 4; ++i) write(frame, 30 + 2 * i, 2, component(shape, i));
   frame.data[50] = static_cast<std::uint8_t>((frame.data[50] & 0xE0U) | shape.dots);
 }
 
