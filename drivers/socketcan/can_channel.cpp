@@ -70,7 +70,9 @@ hal::SendResult CanChannel::write_until(const WireFrame& wire, Time deadline) {
   }
 }
 
+// The inbox first: a burst longer than it waits in the kernel and is not overwritten.
 bool CanChannel::receive(hal::CanFrame& frame) {
+  if (inbox_.take(frame)) return true;
   catch_up();
   return inbox_.take(frame);
 }

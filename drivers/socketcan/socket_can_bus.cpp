@@ -100,8 +100,8 @@ Result<std::unique_ptr<SocketCanBus>> SocketCanBus::open(const SocketCanSettings
     return set_options(descriptor, settings);
   });
   if (!ready) return tl::unexpected(ready.error());
-  auto link = std::make_unique<SocketCanLink>(descriptor, settings.interface,
-                                              filters_for(settings.listen_ids));
+  auto link = std::make_unique<SocketCanLink>(
+      descriptor, settings.interface, filters_for(settings.listen_ids, settings.listen_extended));
   if (!link->bind()) return refuse(settings.interface, "cannot be bound to" + reason());
   return std::make_unique<SocketCanBus>(
       std::make_unique<CanChannel>(std::move(*port), std::move(link), settings.fd, clock));

@@ -16,6 +16,7 @@ struct SocketCanSettings {
   std::string interface = "can0";
   bool fd = false;                             // frames of up to 64 bytes too
   std::vector<std::uint32_t> listen_ids = {};  // what receive() is for; none: nothing is received
+  bool listen_extended = false;  // all of them have 29 bits; else those above 0x7FF have
 };
 
 // What happened on the interface since it was opened. Plain numbers, a snapshot.

@@ -11,14 +11,14 @@
 
 namespace dottrack::drivers {
 
-std::vector<can_filter> filters_for(std::span<const std::uint32_t> ids) {
+std::vector<can_filter> filters_for(std::span<const std::uint32_t> ids, bool extended) {
   std::vector<can_filter> filters;
   filters.reserve(ids.size());
   for (const std::uint32_t id : ids) {
-    const bool extended = id > CAN_SFF_MASK;
+    const bool has_29_bits = extended || id > CAN_SFF_MASK;
     filters.push_back(
-        {.can_id = id | (extended ? CAN_EFF_FLAG : 0U),
-         .can_mask = (extended ? CAN_EFF_MASK : CAN_SFF_MASK) | CAN_EFF_FLAG | CAN_RTR_FLAG});
+        {.can_id = id | (has_29_bits ? CAN_EFF_FLAG : 0U),
+         .can_mask = (has_29_bits ? CAN_EFF_MASK : CAN_SFF_MASK) | CAN_EFF_FLAG | CAN_RTR_FLAG});
   }
   return filters;
 }

@@ -13,8 +13,8 @@
 namespace dottrack::drivers {
 
 // Which frames the socket receives besides all error frames: exactly these data frames. An
-// identifier above 0x7FF is an extended one.
-std::vector<can_filter> filters_for(std::span<const std::uint32_t> ids);
+// identifier above 0x7FF is an extended one; if `extended`, each one is.
+std::vector<can_filter> filters_for(std::span<const std::uint32_t> ids, bool extended = false);
 
 class SocketCanLink final : public CanLink {
  public:

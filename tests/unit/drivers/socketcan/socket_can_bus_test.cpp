@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "drivers/socketcan/socket_can_link.h"
 #include "rtos_shim/allocation_trap/allocation_trap.h"
 #include "rtos_shim/virtual_time/virtual_clock.h"
 #include "tests/support/can_pair.h"
@@ -183,6 +184,30 @@ TEST_F(SocketCanBusTest, TheNewestFramesAreKeptWhenNobodyReceives) {
   }
   EXPECT_FALSE(bus_.receive(frame));
   EXPECT_EQ(bus_.counts().overwritten, 3U);
+}
+
+TEST_F(SocketCanBusTest, ABurstLongerThanTheInboxIsReceivedWhole) {
+  constexpr std::uint32_t kBrought = 2 * FrameInbox::kCapacity + 5;
+  for (std::uint32_t id = 0; id < kBrought; ++id) ASSERT_TRUE(pair_.bring(frame_of(id)));
+  hal::CanFrame frame;
+  for (std::uint32_t id = 0; id < kBrought; ++id) {
+    ASSERT_TRUE(bus_.receive(frame)) << id;
+    EXPECT_EQ(frame.id, id);
+  }
+  EXPECT_FALSE(bus_.receive(frame));
+  EXPECT_EQ(bus_.counts().overwritten, 0U);
+}
+
+TEST(SocketCanFilters, SayWhichIdentifiersHave29Bits) {
+  constexpr std::uint32_t kIds[] = {0x300, 0x12345};
+  const auto by_size = filters_for(kIds);
+  ASSERT_EQ(by_size.size(), 2U);
+  EXPECT_EQ(by_size[0].can_id, 0x300U);
+  EXPECT_EQ(by_size[1].can_id, 0x12345U | CAN_EFF_FLAG);
+  const auto extended = filters_for(kIds, true);
+  ASSERT_EQ(extended.size(), 2U);
+  EXPECT_EQ(extended[0].can_id, 0x300U | CAN_EFF_FLAG);
+  EXPECT_EQ(extended[0].can_mask, CAN_EFF_MASK | CAN_EFF_FLAG | CAN_RTR_FLAG);
 }
 
 TEST_F(SocketCanBusTest, ARemoteRequestIsNobodysFrame) {
