@@ -108,9 +108,8 @@ std::optional<Overload> overload(const CanUse& use) {
   if (fits(use)) return std::nullopt;
   const std::string allowed =
       fits_on_average(use)
-          ? fmt::format("{} ms at most, half a tick",
-                        shortest(kLargestGroup * 1e3 / use.frame_rate_hz))
-          : fmt::format("{} % at most (max_load)", shortest(use.can.max_load * 100.0));
+          ? fmt::format("{:.4g} ms at most, half a tick", kLargestGroup * 1e3 / use.frame_rate_hz)
+          : fmt::format("{:.4g} % at most (max_load)", use.can.max_load * 100.0);
   return Overload{describe(use), allowed + ", " + remedy(use)};
 }
 

@@ -89,6 +89,7 @@ class RigReader {
     TableReader reader(complaint_, table, "[rig]", {"name", "frame_rate_hz"});
     config_.name = reader.text("name", config_.name);
     config_.frame_rate_hz = reader.number("frame_rate_hz", config_.frame_rate_hz, kFrameRate);
+    rate_line_ = reader.line("frame_rate_hz");
   }
 
   void read_cameras(const toml::table& root) {
@@ -246,13 +247,12 @@ class RigReader {
     const auto too_much = overload(can_use(config_));
     if (!too_much) return;
     if (root.contains("can")) {
-      complaint_.add(line_of(root, "can"), too_much->what, too_much->expected);
-      return;
+      return complaint_.add(line_of(root, "can"), too_much->what, too_much->expected);
     }
-    const std::string what = fmt::format("{} (no table [can]: the defaults, at frame_rate_hz = {})",
-                                         too_much->what, shortest(config_.frame_rate_hz));
-    complaint_.add(root.contains("rig") ? line_of(root, "rig") : 1, what,
-                   too_much->expected + " under [can]");
+    complaint_.add(rate_line_,
+                   fmt::format("{} (the defaults of [can], at frame_rate_hz = {})", too_much->what,
+                               shortest(config_.frame_rate_hz)),
+                   too_much->expected);
   }
 
   std::filesystem::path path_;
@@ -261,6 +261,7 @@ class RigReader {
   std::vector<std::size_t> name_lines_;
   std::vector<std::size_t> model_lines_;
   std::vector<NamedTarget> targets_;
+  std::size_t rate_line_ = 1;
   boost::crc_32_type sum_;  // of the bytes of all files so far
 };
 

@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "rig.toml:7: model is \"cam9.cahv\": no such file; "
                 "expected a camera model file, relative to the rig file"},
         Mistake{"ModelIsFolder", "cam1.cahv", "models",
-                "rig.toml:7: model is \"models\": no such file; "
+                "rig.toml:7: model is \"models\": is a folder; "
                 "expected a camera model file, relative to the rig file"},
         Mistake{"DeviceIsList", "\"/base/i2c/imx296@1\"", "[]",
                 "rig.toml:17: device is a list; expected a text"},
