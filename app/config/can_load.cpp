@@ -78,11 +78,6 @@ std::string remedy(const CanUse& use) {
   return "which takes a higher bit_rate or a lower frame_rate_hz";
 }
 
-// Rounded up: a load is never understated.
-double tenths(double value) {
-  return std::ceil(value * 10.0) / 10.0;
-}
-
 std::string bit_rate_words(const CanConfig& can) {
   const std::string arbitration = shortest(can.bit_rates.arbitration / 1e3);
   if (!can.addressing.fd) return arbitration;
@@ -95,6 +90,11 @@ protocol::BusLoad bus_load(const CanUse& use) {
   const Duration tick_period(std::llround(1e9 / use.frame_rate_hz));
   return protocol::bus_load(use.can.addressing, use.can.rates, use.can.bit_rates, use.dots,
                             tick_period);
+}
+
+double tenths(double value) {
+  constexpr double kNoise = 1e-5;  // durations are whole nanoseconds
+  return std::ceil(value * 10.0 - kNoise) / 10.0;
 }
 
 std::string describe(const CanUse& use) {

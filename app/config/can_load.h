@@ -23,6 +23,9 @@ protocol::BusLoad bus_load(const CanUse& use);
 // One line: "CAN: 21.4 % of 500 kbit/s, fullest group 45 frames in 12.2 ms".
 std::string describe(const CanUse& use);
 
+// Rounded up to tenths, for people: a load is never understated.
+double tenths(double value);
+
 // Of a group, all the frames go out between two ticks; the vehicle's other nodes need room, too.
 inline constexpr double kLargestGroup = 0.5;  // share of a tick's period
 
