@@ -31,6 +31,9 @@ class Broadcaster {
   void part(const protocol::PoseMessage& message, Time deadline,
             telemetry::CycleCounters& counters);
 
+  // A reason that holds from now on.
+  void degrade(protocol::Degraded reason) { settings_.standing.insert(reason); }
+
   // The identity goes out with the next group.
   void identify() { identity_wanted_ = true; }
   void identify_as(const protocol::IdentityMessage& identity);

@@ -69,6 +69,9 @@ class Cycle {
   // Locks are counted on.
   void use(core::Tracker& tracker, std::size_t dots, const protocol::IdentityMessage& identity);
 
+  // From now on every message says so.
+  void degrade(protocol::Degraded reason) { broadcaster_.degrade(reason); }
+
   // After the last tick: the lenses back to their own control, the lamp off, and one more message
   // on CAN that says that there is no pose and why.
   void farewell(Time now);

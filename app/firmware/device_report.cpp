@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "app/firmware/bus_check.h"
+
 namespace dottrack::firmware {
 namespace {
 
@@ -94,6 +96,13 @@ void check_can(const config::RigConfig& config, const Devices& devices,
   } else if (!it->up) {
     lines.push_back(
         fmt::format("[can]: interface {} is down; expected it up, with a bit rate", quoted(name)));
+  } else if (auto overload = overload_of(config, *it)) {
+    lines.push_back(std::move(*overload));
+  } else if (config.unit.can.addressing.fd && !it->fd) {
+    lines.push_back(
+        fmt::format("[can]: interface {} is not set up for CAN FD; expected \"fd on\", "
+                    "or fd = false in the rig file",
+                    quoted(name)));
   }
 }
 

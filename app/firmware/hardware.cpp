@@ -8,6 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "app/core/protocol/command.h"
+#include "app/firmware/bus_check.h"
+
 namespace dottrack::firmware {
 namespace {
 
@@ -62,6 +65,17 @@ std::vector<std::optional<drivers::IrisWiring>> iris_wiring(const config::RigCon
   return irises;
 }
 
+drivers::SocketCanSettings can_settings(const config::CanConfig& can) {
+  drivers::SocketCanSettings settings;
+  settings.interface = can.interface;
+  settings.fd = can.addressing.fd;
+  if (can.commands) {
+    settings.listen_ids = {protocol::command_id(can.addressing)};
+    settings.listen_extended = can.addressing.extended;
+  }
+  return settings;
+}
+
 Result<void> open_lines(const config::UnitConfig& unit, Hardware& hardware) {
   if (unit.trigger) {
     auto line = open_line(unit.trigger->line, "dottrack trigger");
@@ -103,7 +117,10 @@ Result<std::unique_ptr<Hardware>> Hardware::open(const config::RigConfig& config
   if (auto done = open_lines(config.unit, *hardware); !done) {
     return tl::unexpected<Error>(done.error());
   }
-  auto can = drivers::SocketCanBus::open({.interface = config.unit.can.interface}, clock);
+  if (const auto interfaces = drivers::list_can_interfaces()) {
+    if (auto overload = overload_of(config, *interfaces)) return fail(std::move(*overload));
+  }
+  auto can = drivers::SocketCanBus::open(can_settings(config.unit.can), clock);
   if (!can) return tl::unexpected<Error>(can.error());
   hardware->can = std::move(*can);
   auto irises = drivers::GpioIris::open(iris_wiring(config), clock);

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <thread>
 #include <utility>
 
@@ -32,16 +34,18 @@ telemetry::RecordingSettings recording_settings(const config::RigConfig& config)
           .frames = recording.frames,
           .min_free_bytes = static_cast<std::uint64_t>(recording.min_free_mb * 1e6),
           .cameras = camera_names(config),
-          .dots = config.rig.target.dots.size()};
+          .dots = config::most_dots(config)};
 }
 
 }  // namespace
 
 Housekeeping::Housekeeping(Unit& unit, const rtos::ServiceManager& manager,
-                           const Degradation& degradation, telemetry::RecordWriter* also)
+                           const Degradation& degradation, ContinuityFile& locks,
+                           telemetry::RecordWriter* also)
     : unit_(unit),
       manager_(manager),
       degradation_(degradation),
+      locks_(locks),
       log_(camera_names(unit.config()), log_line),
       recorder_(unit.records()) {
   recorder_.add(log_);
@@ -72,9 +76,12 @@ void Housekeeping::run() {
 void Housekeeping::round() {
   recorder_.drain();
   if (recording_) recording_->settle();
+  // The thread that waits for signals is the one that exchanges targets.
+  if (unit_.requests().pending()) ::kill(::getpid(), SIGUSR1);
   if (rounds_++ % kRoundsAStatus != 0) return;
   report_recording();
   report_heap();
+  keep_locks();
   if (rounds_ % kRoundsALosses == 1) report_losses();
   manager_.status(status());
   if (rounds_ % kRoundsAReminder == 1) {
@@ -120,6 +127,12 @@ void Housekeeping::report_losses() {
   const drivers::SocketCanCounts can = unit_.hardware().can->counts();
   if (const auto line = losses(told_can_, can)) log_line(Severity::warning, *line);
   told_can_ = can;
+}
+
+void Housekeeping::keep_locks() {
+  const auto kept = locks_.keep(unit_.resets());
+  if (!kept && !told_locks_fault_) log_line(Severity::warning, kept.error().message);
+  told_locks_fault_ = !kept;
 }
 
 std::string Housekeeping::status() const {

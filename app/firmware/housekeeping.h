@@ -22,7 +22,7 @@ class Housekeeping {
  public:
   // All outlive this. `also` may be null: it gets every record too.
   Housekeeping(Unit& unit, const rtos::ServiceManager& manager, const Degradation& degradation,
-               telemetry::RecordWriter* also);
+               ContinuityFile& locks, telemetry::RecordWriter* also);
   // Empties the ring, closes the recording.
   ~Housekeeping();
 
@@ -34,16 +34,19 @@ class Housekeeping {
   void report_recording();
   void report_heap();
   void report_losses();
+  void keep_locks();
   std::string status() const;
 
   Unit& unit_;
   const rtos::ServiceManager& manager_;
   const Degradation& degradation_;
+  ContinuityFile& locks_;
   telemetry::UnitLog log_;
   std::optional<telemetry::Recording> recording_;
   telemetry::Recorder recorder_;
   std::string told_recording_fault_;
   std::uint64_t told_heap_calls_ = 0;
+  bool told_locks_fault_ = false;
   std::array<drivers::CameraHealth, kMaxCameras> told_cameras_{};
   drivers::SocketCanCounts told_can_{};
   std::uint64_t rounds_ = 0;

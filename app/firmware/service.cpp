@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "app/config/rig_file.h"
+#include "app/firmware/continuity.h"
 #include "app/firmware/exit_status.h"
 #include "app/firmware/housekeeping.h"
 #include "app/firmware/journal.h"
@@ -31,7 +32,7 @@ class Signals {
  public:
   Signals() {
     sigemptyset(&set_);
-    for (const int signal : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&set_, signal);
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGUSR1}) sigaddset(&set_, signal);
     pthread_sigmask(SIG_BLOCK, &set_, nullptr);
   }
 
@@ -56,7 +57,9 @@ class Signals {
 class Service {
  public:
   explicit Service(const ServiceOptions& options)
-      : options_(options), degradation_(options.allow_degraded) {}
+      : options_(options),
+        degradation_(options.allow_degraded),
+        locks_(ContinuityFile::of_service()) {}
 
   int run() {
     Result<config::RigConfig> config = config::load_rig(options_.config);
@@ -65,8 +68,9 @@ class Service {
     if (auto done = start(*config); !done) return give_up(done.error(), kFailed);
     manager_.ready();
     log_line(Severity::info,
-             fmt::format("{}: {} cameras at {} Hz on {}", config->name, config->cameras.size(),
-                         config->frame_rate_hz, config->unit.can.interface));
+             fmt::format("{}: {} cameras at {} Hz on {}; {}", config->name, config->cameras.size(),
+                         config->frame_rate_hz, config->unit.can.interface,
+                         config::describe(config::can_use(*config))));
     const bool kept_running = serve();
     finish();
     return kept_running ? kDone : kFailed;
@@ -79,6 +83,11 @@ class Service {
     if (auto locked = memory.lock_all(kMainStack_bytes);
         !locked && !degradation_.accepts(locked.error())) {
       return locked;
+    }
+    if (auto resets = locks_.resets_at_start()) {
+      continuity_.resets = *resets;
+    } else {
+      log_line(Severity::warning, resets.error().message);
     }
     return {};
   }
@@ -102,15 +111,21 @@ class Service {
     if (!unit) return tl::unexpected<Error>(unit.error());
     unit_ = std::move(*unit);
     measure_ = std::make_unique<Measure>();
-    housekeeping_ = std::make_unique<Housekeeping>(*unit_, manager_, degradation_,
+    housekeeping_ = std::make_unique<Housekeeping>(*unit_, manager_, degradation_, locks_,
                                                    options_.measure_s ? measure_.get() : nullptr);
     if (auto done = open_watchdog(config.unit.loop); !done) return done;
-    if (auto done = unit_->start(watchdog_.get(), degradation_); !done) return done;
+    if (auto done = unit_->start(watchdog_.get(), continuity_, degradation_); !done) return done;
     return housekeeping_->start();
   }
 
   void end_unit() {
-    if (unit_) unit_->stop();
+    if (unit_) {
+      unit_->stop();
+      continuity_ = unit_->continuity();
+      if (auto kept = locks_.keep(continuity_.resets); !kept) {
+        log_line(Severity::warning, kept.error().message);
+      }
+    }
     housekeeping_.reset();
     if (watchdog_) watchdog_->kick();
   }
@@ -119,12 +134,26 @@ class Service {
   bool serve() {
     while (unit_) {
       const std::optional<int> signal = signals_.wait(options_.measure_s);
+      if (signal == SIGUSR1) {
+        set_target();
+        continue;
+      }
       if (signal != SIGHUP) return true;
       manager_.reloading();
       reload();
       manager_.ready();
     }
     return false;
+  }
+
+  // As a command over CAN asked for.
+  void set_target() {
+    const std::optional<std::uint8_t> index = unit_->requests().take_target();
+    const config::RigConfig& config = unit_->config();
+    if (!index || *index >= config.targets.size() || *index == config.target_index) return;
+    unit_->exchange(config::with_target(config, *index));
+    log_line(Severity::info, fmt::format("target {} from now on, by a command over CAN",
+                                         unit_->config().target_name));
   }
 
   void reload() {
@@ -185,6 +214,8 @@ class Service {
   Signals signals_;  // before any thread starts
   rtos::ServiceManager manager_;
   Degradation degradation_;
+  ContinuityFile locks_;
+  Continuity continuity_;
   std::unique_ptr<rtos::DeviceWatchdog> watchdog_;
   std::unique_ptr<Measure> measure_;
   std::unique_ptr<Unit> unit_;

@@ -98,9 +98,12 @@ Result<void> Unit::open_devices(Degradation& degradation) {
   return {};
 }
 
-void Unit::make_cycle(rtos::Watchdog* watchdog) {
-  cycle::CycleSettings settings = cycle::settings_for(config().cameras.size(), period_of(config()));
-  settings.can_base_id = config().unit.can.base_id;
+void Unit::make_cycle(rtos::Watchdog* watchdog, const Continuity& before) {
+  protocol::BroadcastSettings broadcast = loaded_->broadcast;
+  broadcast.first_sequence = before.sequence;
+  cycle::CycleSettings settings = cycle::settings_for(config().rig, period_of(config()), broadcast);
+  settings.resets_before = before.resets;
+  resets_ = before.resets;
   Hardware& hardware = *hardware_;
   cycle_.emplace(cycle::CycleParts{.grabber = *hardware.cameras,
                                    .iris = *hardware.irises,
@@ -111,12 +114,14 @@ void Unit::make_cycle(rtos::Watchdog* watchdog) {
                                    .records = *records_,
                                    .frames = frames_.get(),
                                    .lamp = hardware.lamp.get(),
-                                   .watchdog = watchdog},
+                                   .watchdog = watchdog,
+                                   .requests = &requests_},
                  settings);
 }
 
-Result<void> Unit::start(rtos::Watchdog* watchdog, Degradation& degradation) {
-  make_cycle(watchdog);
+Result<void> Unit::start(rtos::Watchdog* watchdog, const Continuity& before,
+                         Degradation& degradation) {
+  make_cycle(watchdog, before);
   bool has_irises = false;
   for (std::size_t i = 0; i < config().cameras.size(); ++i) {
     const auto& iris = config().unit.cameras[i].iris;
@@ -132,13 +137,15 @@ Result<void> Unit::start(rtos::Watchdog* watchdog, Degradation& degradation) {
         [this] { run_irises(); }, degradation);
     if (!started) return started;
   }
-  return start_thread(
+  auto started = start_thread(
       loop_thread_,
       {.name = "dottrack-loop",
        .fifo_priority = loop.priority,
        .cpu = loop.cpu,
        .stack_bytes = kLoopStack_bytes},
       [this] { run_loop(); }, degradation);
+  not_real_time_ = !degradation.lacks().empty();
+  return started;
 }
 
 void Unit::stop() {
@@ -148,17 +155,22 @@ void Unit::stop() {
   iris_thread_.join();
 }
 
+Continuity Unit::continuity() const {
+  return {resets(), cycle_ ? cycle_->next_sequence() : std::uint8_t{0}};
+}
+
 bool Unit::takes(const config::RigConfig& other) const {
   const config::RigConfig& own = config();
   return own.frame_rate_hz == other.frame_rate_hz && own.unit == other.unit &&
-         own.rig.target.dots.size() == other.rig.target.dots.size() && same_pictures(own, other);
+         own.targets.size() == other.targets.size() &&
+         config::most_dots(own) == config::most_dots(other) && same_pictures(own, other);
 }
 
 void Unit::exchange(config::RigConfig config) {
   auto next = std::make_unique<LoadedTracker>(std::move(config));
-  next_tracker_ = &next->tracker;
+  next_ = next.get();
   // The loop takes it at its next tick.
-  while (next_tracker_.load() != nullptr) std::this_thread::sleep_for(milliseconds(1));
+  while (next_.load() != nullptr) std::this_thread::sleep_for(milliseconds(1));
   loaded_ = std::move(next);
 }
 
@@ -167,14 +179,16 @@ void Unit::run_loop() {
   rtos::PosixPeriodicTimer timer(clock_.now() + period, period);
   while (!ending_) {
     const rtos::Wake wake = timer.wait();
-    if (core::Tracker* next = next_tracker_.load()) {
-      cycle_->use(*next);
-      next_tracker_ = nullptr;
+    if (LoadedTracker* next = next_.load()) {
+      cycle_->use(next->tracker, next->config.rig.target.dots.size(), next->broadcast.identity);
+      next_ = nullptr;
     }
+    if (not_real_time_) cycle_->degrade(protocol::Degraded::not_real_time);
     const rtos::AllocationTrap::Scope armed;
     cycle_->tick(wake);
     heap_calls_ += armed.calls().total();
     ++ticks_;
+    resets_ = cycle_->resets();
   }
   cycle_->farewell(clock_.now());
 }

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/config/broadcast.h"
 #include "app/workstation/overlay.h"
 #include "rtos_shim/allocation_trap/allocation_trap.h"
 
@@ -34,7 +35,8 @@ LoopRun::LoopRun(const config::RigConfig& config, LoopFiles files, LoopHardware 
       ring_(std::make_unique<telemetry::RecordRing>()),
       cycle_({hardware_.grabber, hardware_.iris, hardware_.can, tracker_, *files_.clock, stopwatch_,
               *ring_},
-             cycle::settings_for(config_.cameras.size(), period_of(config_))),
+             cycle::settings_for(config_.rig, period_of(config_),
+                                 config::broadcast_settings(config_))),
       recorder_(*ring_),
       tum_(files_.tum),
       csv_(files_.csv, camera_names(config_), config_.rig.target.dots.size()) {

@@ -70,6 +70,11 @@ class CommandReader {
   CommandCounts counts_;
 };
 
+// Of the frames that a unit listens for.
+constexpr std::uint32_t command_id(const Addressing& addressing) {
+  return addressing.base_id + 18;
+}
+
 // The command frame as a vehicle sends it.
 hal::CanFrame encode_command(const Command& command, const Addressing& addressing,
                              std::uint8_t sequence);

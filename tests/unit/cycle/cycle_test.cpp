@@ -6,16 +6,17 @@
 #include <memory>
 #include <optional>
 
-#include "app/core/protocol/pose_decoder.h"
 #include "rtos_shim/allocation_trap/allocation_trap.h"
 #include "rtos_shim/virtual_time/virtual_clock.h"
 #include "rtos_shim/virtual_time/virtual_periodic_timer.h"
+#include "tests/support/bus_listener.h"
 #include "tests/support/disc_scene.h"
 #include "tests/unit/cycle/fake_hardware.h"
 
 namespace dottrack::cycle {
 namespace {
 
+using dottrack::test::BusListener;
 using dottrack::test::DiscScene;
 using dottrack::test::GreyImage;
 using std::chrono::milliseconds;
@@ -45,15 +46,16 @@ class CycleTest : public testing::Test {
     return record_;
   }
 
-  std::optional<protocol::PoseMessage> last_message() {
-    protocol::PoseDecoder decoder;
-    std::optional<protocol::PoseMessage> last;
-    for (std::size_t i = 0; i < can_.sent_size; ++i) {
-      protocol::Payload data{};
-      std::copy_n(can_.sent[i].data.begin(), data.size(), data.begin());
-      if (const auto message = decoder.push(can_.sent[i].id, data)) last = message;
-    }
-    return last;
+  // All that went out, as a vehicle hears it.
+  BusListener listen() {
+    BusListener listener;
+    for (std::size_t i = 0; i < can_.sent_size; ++i) listener.hear(can_.sent[i]);
+    return listener;
+  }
+
+  std::optional<dottrack_pose> last_message() {
+    const BusListener listener = listen();
+    return listener.poses().empty() ? std::nullopt : std::optional(listener.poses().back());
   }
 
   DiscScene scene_;
@@ -67,7 +69,7 @@ class CycleTest : public testing::Test {
   Stopwatch stopwatch_;
   std::unique_ptr<telemetry::RecordRing> ring_ = std::make_unique<telemetry::RecordRing>();
   Cycle cycle_{{grabber_, iris_, can_, tracker_, clock_, stopwatch_, *ring_},
-               settings_for(kCameras, kPeriod)};
+               settings_for(scene_.rig(), kPeriod)};
   telemetry::CycleRecord record_;
 };
 
@@ -82,11 +84,16 @@ TEST_F(CycleTest, FramesBecomeAPoseOnTheBus) {
 
   const auto message = last_message();
   ASSERT_TRUE(message);
-  EXPECT_TRUE(message->pose_valid);
-  EXPECT_EQ(message->state, core::State::tracking);
-  EXPECT_EQ(message->mid_exposure, Time(milliseconds(103)));
-  EXPECT_LT((message->position_m - record.result.pose.position_m).norm(), 1e-4);
-  EXPECT_EQ(message->cameras_used, record.result.cameras_used);
+  EXPECT_TRUE(message->valid);
+  EXPECT_EQ(message->state, DOTTRACK_TRACKING);
+  EXPECT_EQ(message->capture_us, 103'000U);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(message->position_m[i], record.result.pose.position_m[i], 1e-4);
+  }
+  EXPECT_EQ(message->cameras_used, record.result.cameras_used.bits());
+  EXPECT_TRUE(message->has_covariance);
+  EXPECT_LE(message->false_lock_probability, 0.01);
+  EXPECT_GE(message->false_lock_probability, record.result.false_lock_probability);
   EXPECT_EQ(record.counters.messages_sent, 1U);
 }
 
@@ -144,9 +151,9 @@ TEST_F(CycleTest, WithoutFramesTheBusHearsThatThereIsNoPose) {
   EXPECT_EQ(record.stamp, Time(milliseconds(120)));
   const auto message = last_message();
   ASSERT_TRUE(message);
-  EXPECT_FALSE(message->pose_valid);
-  EXPECT_EQ(message->reason, core::Reason::no_frames);
-  EXPECT_EQ(message->mid_exposure, Time(milliseconds(120)));
+  EXPECT_FALSE(message->valid);
+  EXPECT_STREQ(dottrack_reason_text(message->reason), "no_frames");
+  EXPECT_EQ(message->capture_us, 120'000U);
 }
 
 TEST_F(CycleTest, AFullBusIsCountedAndTheRestOfTheGroupStaysAtHome) {
@@ -202,13 +209,14 @@ TEST_F(CycleTest, ARecorderThatIsTooSlowLosesRecordsAndNotTheLoop) {
 TEST_F(CycleTest, TheFarewellLeavesASafeStateAndSaysWhy) {
   show(0);
   tick();
+  clock_.jump_to(Time(milliseconds(115)));
   cycle_.farewell(clock_.now());
   EXPECT_EQ(iris_.released, CameraSet::first(kCameras));
   const auto message = last_message();
   ASSERT_TRUE(message);
-  EXPECT_FALSE(message->pose_valid);
-  EXPECT_EQ(message->state, core::State::acquiring);
-  EXPECT_EQ(message->reason, core::Reason::stopped);
+  EXPECT_FALSE(message->valid);
+  EXPECT_EQ(message->state, DOTTRACK_ACQUIRING);
+  EXPECT_STREQ(dottrack_reason_text(message->reason), "stopped");
   EXPECT_EQ(message->reset_count, 1);
 }
 
@@ -216,12 +224,145 @@ TEST_F(CycleTest, AnotherTrackerTakesOverAndItsLocksCountOn) {
   show(0);
   tick();
   core::Tracker other(scene_.rig());
-  cycle_.use(other);
+  cycle_.use(other, scene_.rig().target.dots.size(), {});
   show(1);
   const telemetry::CycleRecord& record = tick();
   EXPECT_TRUE(record.result.has_pose);
   EXPECT_EQ(record.result.tick, 1U);
   EXPECT_EQ(record.result.reset_count, 2U);
+}
+
+TEST_F(CycleTest, AVehicleHearsHowItMoves) {
+  for (std::uint64_t n = 0; n < 2; ++n) {
+    show(n);
+    tick();
+  }
+  const auto message = last_message();
+  ASSERT_TRUE(message);
+  ASSERT_TRUE(message->has_velocity);
+  ASSERT_TRUE(message->has_rates);
+  const Eigen::Vector3d driven =
+      DiscScene::pose_at(1).position_m - DiscScene::pose_at(0).position_m;
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(message->velocity_m_s[i], driven[i] / 0.02, 0.2);
+}
+
+TEST_F(CycleTest, EveryGroupOfARunIsWholeAndItsSequenceCounts) {
+  for (std::uint64_t n = 0; n < 12; ++n) {
+    show(n);
+    tick();
+  }
+  const BusListener listener = listen();
+  ASSERT_EQ(listener.poses().size(), 12U);
+  for (std::size_t n = 0; n < 12; ++n) EXPECT_EQ(listener.poses()[n].sequence, n);
+  EXPECT_EQ(listener.counts().incomplete + listener.counts().corrupted, 0U);
+  EXPECT_EQ(listener.poses()[0].dots, scene_.rig().target.dots.size());
+  EXPECT_EQ(listener.poses()[1].dots, 0) << "dots are told every tenth time";
+  EXPECT_EQ(listener.poses()[10].dots, scene_.rig().target.dots.size());
+  EXPECT_TRUE(listener.unit().has_version);
+}
+
+class CommandedCycleTest : public CycleTest {
+ protected:
+  CommandedCycleTest() {
+    protocol::BroadcastSettings broadcast;
+    broadcast.commands = true;
+    broadcast.targets = 2;
+    commanded_.emplace(CycleParts{.grabber = grabber_,
+                                  .iris = iris_,
+                                  .can = can_,
+                                  .tracker = tracker_,
+                                  .clock = clock_,
+                                  .stopwatch = stopwatch_,
+                                  .records = *ring_,
+                                  .requests = &requests_},
+                       settings_for(scene_.rig(), kPeriod, broadcast));
+  }
+
+  void hear(protocol::CommandCode code, std::uint8_t argument = 0) {
+    can_.heard.push_back(
+        protocol::encode_command({code, argument, kToken}, {}, command_sequence_++));
+  }
+
+  const telemetry::CycleRecord& commanded_tick() {
+    commanded_->tick(timer_.wait());
+    if (!ring_->try_pop(record_)) throw std::runtime_error("the tick left no record");
+    return record_;
+  }
+
+  std::vector<dottrack_reply> replies() const {
+    std::vector<dottrack_reply> replies;
+    const dottrack_settings settings = dottrack_default_settings();
+    for (std::size_t i = 0; i < can_.sent_size; ++i) {
+      dottrack_reply reply{};
+      const dottrack_frame frame = dottrack::test::receiver_frame(can_.sent[i]);
+      if (dottrack_read_reply(&settings, &frame, &reply)) replies.push_back(reply);
+    }
+    return replies;
+  }
+
+  static constexpr std::uint16_t kToken = 0xBEEF;
+  Requests requests_;
+  std::optional<Cycle> commanded_;
+  std::uint8_t command_sequence_ = 7;
+};
+
+TEST_F(CommandedCycleTest, ACommandMakesItLookForTheTargetAnew) {
+  show(0);
+  commanded_tick();
+  hear(protocol::CommandCode::acquire);
+  EXPECT_EQ(commanded_tick().result.reset_count, 1U);
+  EXPECT_EQ(record_.counters.commands.accepted, 1U);
+  show(1);
+  EXPECT_EQ(commanded_tick().result.reset_count, 2U);
+  ASSERT_EQ(replies().size(), 1U);
+  EXPECT_EQ(replies()[0].token, kToken);
+  EXPECT_STREQ(dottrack_result_text(replies()[0].result), "done");
+}
+
+TEST_F(CommandedCycleTest, AnotherTargetIsAskedForOnce) {
+  hear(protocol::CommandCode::set_target, 1);
+  commanded_tick();
+  EXPECT_TRUE(requests_.pending());
+  EXPECT_EQ(requests_.take_target(), 1);
+  EXPECT_EQ(requests_.take_target(), std::nullopt);
+}
+
+TEST_F(CommandedCycleTest, ATargetThatTheRigDoesNotHaveIsRefused) {
+  hear(protocol::CommandCode::set_target, 2);
+  const telemetry::CycleRecord& record = commanded_tick();
+  EXPECT_FALSE(requests_.pending());
+  EXPECT_EQ(record.counters.commands.rejected, 1U);
+  ASSERT_EQ(replies().size(), 1U);
+  EXPECT_STREQ(dottrack_result_text(replies()[0].result), "bad_argument");
+}
+
+TEST_F(CommandedCycleTest, TheVersionIsReportedAtOnce) {
+  commanded_tick();
+  commanded_tick();
+  can_.sent_size = 0;
+  hear(protocol::CommandCode::report_version);
+  commanded_tick();  // is told after its group
+  commanded_tick();
+  const BusListener listener = listen();
+  EXPECT_TRUE(listener.unit().has_version);
+  EXPECT_TRUE(listener.unit().has_configuration);
+}
+
+TEST_F(CommandedCycleTest, AFloodOfCommandsIsHeardALittleATick) {
+  for (int i = 0; i < 100; ++i) hear(protocol::CommandCode::acquire);
+  commanded_tick();
+  EXPECT_EQ(record_.counters.commands.accepted, 1U);
+  EXPECT_GE(can_.heard.size(), 90U);
+  commanded_tick();
+  EXPECT_EQ(record_.counters.commands.accepted, 1U);
+  EXPECT_GT(record_.counters.commands.rejected, 0U) << "too soon";
+}
+
+TEST_F(CycleTest, CommandsAreNotHeardUnlessAskedFor) {
+  can_.heard.push_back(protocol::encode_command({}, {}, 1));
+  tick();
+  EXPECT_EQ(can_.heard.size(), 1U);
+  EXPECT_EQ(record_.counters.commands.accepted, 0U);
 }
 
 class UnitCycleTest : public CycleTest {
@@ -239,7 +380,7 @@ class UnitCycleTest : public CycleTest {
   telemetry::FrameRing frames_ring_{sizes(scene_.rig()), 2};
   Cycle unit_{{grabber_, iris_, can_, tracker_, clock_, stopwatch_, *ring_, &frames_ring_, &lamp_,
                &watchdog_},
-              settings_for(kCameras, kPeriod)};
+              settings_for(scene_.rig(), kPeriod)};
 };
 
 TEST_F(UnitCycleTest, TheLampBlinksWhileSearchingAndShinesWhileTracking) {

@@ -1,6 +1,7 @@
 #pragma once
 // Hardware that does what a test says and remembers what it was asked.
 
+#include <deque>
 #include <vector>
 
 #include "hal/can_bus.h"
@@ -68,6 +69,7 @@ class FakeCan final : public hal::CanBus {
   std::array<hal::CanFrame, kRoom> sent{};
   std::size_t sent_size = 0;
   Time deadline{};
+  std::deque<hal::CanFrame> heard;  // what receive() will give
 
  private:
   hal::SendResult do_send(const hal::CanFrame& frame, Time until) override {
@@ -76,7 +78,12 @@ class FakeCan final : public hal::CanBus {
     sent.at(sent_size++) = frame;
     return hal::SendResult::accepted;
   }
-  bool do_receive(hal::CanFrame&) override { return false; }
+  bool do_receive(hal::CanFrame& frame) override {
+    if (heard.empty()) return false;
+    frame = heard.front();
+    heard.pop_front();
+    return true;
+  }
   hal::CanState do_state() const override { return hal::CanState::active; }
 };
 

@@ -86,6 +86,28 @@ TEST(DeviceReport, EverythingThatIsNotThereIsOneLine) {
                   "[loop]: no watchdog \"/dev/watchdog3\" here"));
 }
 
+TEST(DeviceReport, AnInterfaceTooSlowForTheMessagesIsNamed) {
+  config::RigConfig config = rig();
+  config.unit.can.interface = "can0";
+  Devices slow = board();
+  for (drivers::CanInterface& can : slow.can) {
+    if (can.name == "can0") can.bit_rate = 50'000;
+  }
+  const std::vector<std::string> lines = missing(config, slow);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_THAT(lines[0], testing::StartsWith("[can]: interface can0 runs at 50 kbit/s: CAN: "));
+  EXPECT_THAT(lines[0], testing::HasSubstr("max_load"));
+}
+
+TEST(DeviceReport, FdPosesNeedAnFdInterface) {
+  config::RigConfig config = rig();
+  config.unit.can.interface = "can0";
+  config.unit.can.addressing.fd = true;
+  Devices classic = board();
+  for (drivers::CanInterface& can : classic.can) can.fd = false;
+  EXPECT_THAT(missing(config, classic), ElementsAre(testing::HasSubstr("not set up for CAN FD")));
+}
+
 TEST(DeviceReport, AnInterfaceThatIsDownIsNamed) {
   config::RigConfig config = rig();
   config.unit.can.interface = "vcan0";

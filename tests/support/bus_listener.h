@@ -1,0 +1,53 @@
+#pragma once
+// A vehicle's ear: CAN frames in, what its receiver made of them out.
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "app/core/protocol/addressing.h"
+#include "app/core/protocol/receiver/dottrack_receiver.h"
+#include "hal/base/can_frame.h"
+
+namespace dottrack::test {
+
+inline dottrack_frame receiver_frame(const hal::CanFrame& frame) {
+  dottrack_frame given{};
+  given.id = frame.id;
+  given.extended = frame.extended;
+  given.length = frame.length;
+  std::copy(frame.data.begin(), frame.data.end(), given.data);
+  return given;
+}
+
+class BusListener {
+ public:
+  explicit BusListener(const protocol::Addressing& addressing = {}) {
+    dottrack_settings settings = dottrack_default_settings();
+    settings.base_id = addressing.base_id;
+    settings.extended = addressing.extended;
+    dottrack_receiver_init(&receiver_, &settings);
+  }
+
+  // Frames come a tenth of a millisecond apart.
+  dottrack_verdict hear(const hal::CanFrame& frame) {
+    const dottrack_frame given = receiver_frame(frame);
+    now_us_ += 100;
+    dottrack_pose pose{};
+    const dottrack_verdict verdict = dottrack_receiver_push(&receiver_, &given, now_us_, &pose);
+    if (verdict == DOTTRACK_FRESH) poses_.push_back(pose);
+    return verdict;
+  }
+  void wait_us(std::uint64_t us) { now_us_ += us; }
+
+  const std::vector<dottrack_pose>& poses() const { return poses_; }  // of fresh groups
+  const dottrack_counts& counts() const { return receiver_.counts; }
+  const dottrack_unit& unit() const { return receiver_.unit; }
+
+ private:
+  dottrack_receiver receiver_{};
+  std::uint64_t now_us_ = 1'000'000;
+  std::vector<dottrack_pose> poses_;
+};
+
+}  // namespace dottrack::test
