@@ -35,6 +35,8 @@ const std::vector<Rule>& rules() {
 
       {"app/core", {"app/core", "hal/base"}, {"Eigen", "hwy"}},
       {"app/core/geometry", {"app/core/geometry", "hal/base"}, {"Eigen"}},
+      // Two C files that are copied into other programs.
+      {"app/core/protocol/receiver", {}, {"stdbool.h", "stddef.h", "stdint.h"}},
 
       {"app/config",
        {"app/config", "app/core", "hal", "rtos_shim"},
