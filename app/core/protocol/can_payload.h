@@ -39,24 +39,20 @@ constexpr Payload to_payload(std::uint64_t word) {
 }
 
 // A value too large for its field loses its upper bits.
-constexpr std::uint64_t put(Field field, std::uint64_t value) {
+constexpr std::uint64_t put(const Field& field, std::uint64_t value) {
   return (value & field.mask()) << field.start;
 }
 
 // The same for a field anywhere in 64 bytes, whose bits are 0 before.
-constexpr void put(Field field, std::uint64_t value, LongPayload& payload) {
+constexpr void put(const Field& field, std::uint64_t value, LongPayload& payload) {
   const std::size_t word = field.start / 64U;
   const unsigned start = field.start % 64U;
   payload[word] |= (value & field.mask()) << start;
   if (start + field.length > 64U) payload[word + 1U] |= (value & field.mask()) >> (64U - start);
 }
 
-constexpr std::uint64_t get(Field field, std::uint64_t word) {
+constexpr std::uint64_t get(const Field& field, std::uint64_t word) {
   return (word >> field.start) & field.mask();
-}
-constexpr std::int64_t get_signed(Field field, std::uint64_t word) {
-  const auto value = static_cast<std::int64_t>(get(field, word));
-  return value > field.signed_max() ? value - (std::int64_t{1} << field.length) : value;
 }
 
 }  // namespace dottrack::protocol

@@ -48,7 +48,8 @@ void put_pose(const RawPose& pose, LongPayload& payload) {
 }
 
 template <class Raws>
-void put_row(Field field, const Raws& raws, LongPayload& payload) {
+void put_row(const Field& first, const Raws& raws, LongPayload& payload) {
+  Field field{first.start, first.length};
   for (const std::uint64_t raw : raws) {
     put(field, raw, payload);
     field.start += field.length;

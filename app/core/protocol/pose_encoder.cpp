@@ -33,12 +33,12 @@ static_assert(dot16_detail::kMessage == dot1_detail::kMessage.further(30));
 
 constexpr CovarianceSignals kClassicCovariance{sigma_position::kSigmaX, correlation1::kCorrXY};
 
-std::uint64_t flag(Field field, bool set) {
+std::uint64_t flag(const Field& field, bool set) {
   return put(field, set ? 1 : 0);
 }
 
 template <class Raws>
-std::uint64_t put_row(Field first, const Raws& raws, std::size_t begin, std::size_t count) {
+std::uint64_t put_row(const Field& first, const Raws& raws, std::size_t begin, std::size_t count) {
   std::uint64_t word = 0;
   for (std::size_t i = 0; i < count; ++i) {
     word |=

@@ -1,153 +1,205 @@
-// dottrack.dbc against the encoder: what a DBC tool reads is what was sent.
+// dottrack.dbc by itself and against the names and numbers of the program.
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <random>
 #include <set>
 
-#include "app/core/protocol/pose_decoder.h"
-#include "app/core/protocol/pose_encoder.h"
-#include "app/core/protocol/pose_layout.h"
-#include "tests/unit/protocol/dbc_file.h"
+#include "app/core/protocol/command.h"
+#include "app/core/protocol/degraded.h"
+#include "tests/unit/protocol/dbc_reading.h"
 #include "tests/unit/protocol/random_message.h"
 
 namespace dottrack::protocol::test {
 namespace {
 
-using Readings = std::map<std::string, double>;
+using dbc::DbcMessage;
+using dbc::DbcSignal;
+using Values = std::map<std::int64_t, std::string>;
 
-const std::map<std::uint32_t, DbcMessage>& dbc() {
-  static const auto messages =
-      read_dbc(std::filesystem::path(DOTTRACK_SOURCE_DIR) / "app/core/protocol/dottrack.dbc");
-  return messages;
-}
+constexpr std::uint32_t kLongOne = kDefaultBaseId + 16;
 
-std::vector<std::uint8_t> bytes(const PoseFrame& frame) {
-  return {frame.data.begin(), frame.data.end()};
-}
-
-// Everything a DBC tool would show of one group, the counter of each frame by itself.
-Readings read_by_dbc(const PoseFrames& frames) {
-  Readings readings;
-  for (const PoseFrame& frame : frames) {
-    const DbcMessage& message = dbc().at(frame.id);
-    for (const auto& [name, signal] : message.signals) {
-      const std::string key = name == "Counter" ? message.name + "." + name : name;
-      readings[key] = signal.physical(bytes(frame));
-    }
+TEST(Dbc, HasTheMessagesOfTheDefaultBaseAndNoOther) {
+  std::set<std::uint32_t> ids;
+  for (const DbcMessage& message : layout_file().messages) {
+    EXPECT_FALSE(message.extended);
+    EXPECT_TRUE(ids.insert(message.id).second);
+    EXPECT_EQ(message.length_bytes, message.id == kLongOne ? 64U : 8U) << message.name;
+    EXPECT_EQ(message.sender, message.name == "DOTTRACK_Command" ? "Receiver" : "DOTTRACK");
+    EXPECT_FALSE(message.comment.empty()) << message.name;
   }
-  return readings;
+  std::set<std::uint32_t> expected;
+  for (std::uint32_t i = 0; i < 19; ++i) expected.insert(kDefaultBaseId + i);
+  for (std::uint32_t i = 32; i < kIdentifiers; ++i) expected.insert(kDefaultBaseId + i);
+  EXPECT_EQ(ids, expected);
 }
 
-PoseMessage decoded(const PoseFrames& frames) {
-  PoseDecoder decoder;
-  std::optional<PoseMessage> message;
-  for (const PoseFrame& frame : frames) message = decoder.push(frame.id, frame.data);
-  if (!message) throw std::runtime_error("five frames of one group made no message");
-  return *message;
-}
-
-TEST(Dbc, HasTheFiveMessagesOfTheDefaultBaseAndNoOther) {
-  ASSERT_EQ(dbc().size(), kFramesPerPose);
-  for (std::uint32_t i = 0; i < kFramesPerPose; ++i) {
-    ASSERT_TRUE(dbc().contains(kDefaultBaseId + i));
-    EXPECT_EQ(dbc().at(kDefaultBaseId + i).length_bytes, 8U);
-  }
-}
-
-TEST(Dbc, SignalsOfAMessageDoNotOverlapAndLeaveTheChecksumFree) {
+TEST(Dbc, SignalsOfAMessageDoNotOverlap) {
   int signals = 0;
-  for (const auto& [id, message] : dbc()) {
+  for (const DbcMessage& message : layout_file().messages) {
     std::set<unsigned> taken;
-    for (const auto& [name, signal] : message.signals) {
+    for (const DbcSignal& signal : message.signals) {
       ++signals;
-      EXPECT_TRUE(signal.intel) << name;
-      EXPECT_GE(signal.start, 8U) << name;
-      EXPECT_LE(signal.start + signal.length, 64U) << name;
+      EXPECT_TRUE(signal.intel) << signal.name;
+      EXPECT_LE(signal.start + signal.length, 8 * message.length_bytes) << signal.name;
       for (unsigned bit = signal.start; bit < signal.start + signal.length; ++bit) {
         EXPECT_TRUE(taken.insert(bit).second) << message.name << " bit " << bit;
       }
     }
   }
-  EXPECT_EQ(signals, 21);
+  EXPECT_GT(signals, 250);
 }
 
-TEST(Dbc, ReadsWhatTheDecoderReads) {
-  std::mt19937_64 random(7);
-  for (int i = 0; i < 5000; ++i) {
-    const PoseFrames frames = encode(random_message(random), kDefaultBaseId, random());
-    const Readings by_dbc = read_by_dbc(frames);
-    const PoseMessage message = decoded(frames);
-    ASSERT_EQ(by_dbc.at("Version"), kProtocolVersion);
-    ASSERT_EQ(by_dbc.at("State"), static_cast<int>(message.state));
-    ASSERT_EQ(by_dbc.at("Reason"), static_cast<int>(message.reason));
-    ASSERT_EQ(by_dbc.at("PoseValid"), 1.0);
-    ASSERT_EQ(by_dbc.at("OutOfRange"), 0.0);
-    ASSERT_EQ(by_dbc.at("CamerasUsed"), message.cameras_used.bits());
-    ASSERT_EQ(by_dbc.at("DotsUsed"), message.dots_used);
-    ASSERT_EQ(by_dbc.at("ResetCount"), message.reset_count);
-    ASSERT_EQ(by_dbc.at("MidExposure") * 1000.0,
-              static_cast<double>(message.mid_exposure.time_since_epoch().count()));
-    ASSERT_NEAR(by_dbc.at("X"), message.position_m.x(), 1e-10);
-    ASSERT_NEAR(by_dbc.at("Y"), message.position_m.y(), 1e-10);
-    ASSERT_NEAR(by_dbc.at("Z"), message.position_m.z(), 1e-10);
-    Eigen::Quaterniond q(by_dbc.at("QW"), by_dbc.at("QX"), by_dbc.at("QY"), by_dbc.at("QZ"));
-    ASSERT_LT((q.normalized().coeffs() - message.orientation.coeffs()).norm(), 1e-12);
+TEST(Dbc, EveryMessageBeginsWithChecksumAndSequence) {
+  for (const DbcMessage& message : layout_file().messages) {
+    const unsigned crc_bits = message.id == kLongOne ? 16 : 8;
+    ASSERT_GE(message.signals.size(), 3U);
+    EXPECT_EQ(message.signals[0].name, "CRC");
+    EXPECT_EQ(message.signals[0].start, 0U);
+    EXPECT_EQ(message.signals[0].length, crc_bits);
+    EXPECT_EQ(message.signals[1].name, "Sequence");
+    EXPECT_EQ(message.signals[1].start, crc_bits);
+    EXPECT_EQ(message.signals[1].length, 8U);
   }
+}
+
+TEST(Dbc, DataIdsAreDistinctAndThoseOfTheProtocol) {
+  std::set<std::string> ids;
+  for (const DbcMessage& message : layout_file().messages) {
+    const std::string& id = message.attributes.at("E2EDataId");
+    EXPECT_TRUE(ids.insert(id).second) << message.name;
+    const bool long_one = message.id == kLongOne;
+    EXPECT_EQ(id, std::to_string(long_one ? 0xD07A : message.id - kDefaultBaseId + 1));
+  }
+  const DbcMessage& fd_pose = layout_of("FdPose");
+  EXPECT_EQ(fd_pose.attributes.at("E2EProfile"), "1");
+  EXPECT_EQ(fd_pose.attributes.at("VFrameFormat"), "14");  // StandardCAN_FD
+}
+
+// The ends of what a raw number can say, the marker left out.
+std::pair<std::int64_t, std::int64_t> raw_range(const DbcSignal& signal) {
+  const std::int64_t top = std::int64_t{1} << (signal.length - (signal.is_signed ? 1U : 0U));
+  if (signal.is_signed) return {-(top - 1), top - 1};
+  const auto marker = signal.values.find(top - 1);
+  const bool marked = marker != signal.values.end() && marker->second == "not available";
+  return {0, top - (marked ? 2 : 1)};
+}
+
+// A range may be narrower than its bits; never wider, and never past the marker.
+TEST(Dbc, RangesAreWithinWhatTheBitsCanSay) {
+  const std::set<std::string> narrower{"DotsUsed", "DotsFollow", "Cameras", "Unused",
+                                       "QW",       "QX",         "QY",      "QZ"};
+  for (const DbcMessage& message : layout_file().messages) {
+    for (const DbcSignal& signal : message.signals) {
+      const auto [least, most] = raw_range(signal);
+      const double slack = 0.51 * signal.factor;
+      EXPECT_GE(signal.minimum, static_cast<double>(least) * signal.factor - slack) << signal.name;
+      EXPECT_LE(signal.maximum, static_cast<double>(most) * signal.factor + slack) << signal.name;
+      if (narrower.contains(signal.name) || signal.name.starts_with("Corr")) continue;
+      EXPECT_NEAR(signal.minimum, static_cast<double>(least) * signal.factor, 1e-9) << signal.name;
+      EXPECT_NEAR(signal.maximum, static_cast<double>(most) * signal.factor, 1e-9) << signal.name;
+    }
+  }
+}
+
+TEST(Dbc, NamesTheMarkerOfEverySignedSignal) {
+  int markers = 0;
+  for (const DbcMessage& message : layout_file().messages) {
+    for (const DbcSignal& signal : message.signals) {
+      if (!signal.is_signed) continue;
+      ++markers;
+      const std::int64_t marker = -(std::int64_t{1} << (signal.length - 1));
+      ASSERT_TRUE(signal.values.contains(marker)) << message.name << "." << signal.name;
+      EXPECT_EQ(signal.values.at(marker), "not available");
+    }
+  }
+  EXPECT_EQ(markers, 2 * 7 + 6 + 2 * 15 + 16 * 3);
 }
 
 TEST(Dbc, EveryValueSentLiesWithinItsStatedLimits) {
   std::mt19937_64 random(8);
-  for (int i = 0; i < 2000; ++i) {
-    for (const PoseFrame& frame : encode(random_message(random), kDefaultBaseId, random())) {
-      for (const auto& [name, signal] : dbc().at(frame.id).signals) {
-        const double value = signal.physical(bytes(frame));
-        ASSERT_GE(value, signal.minimum - 1e-9) << name;
-        ASSERT_LE(value, signal.maximum + 1e-9) << name;
+  for (int i = 0; i < 500; ++i) {
+    const PoseMessage message = random_message(random);
+    for (const Addressing& addressing : {classic(), fd()}) {
+      const Reading reading(encoded(message, addressing));
+      for (const auto& [name, decoded] : reading.signals()) {
+        if (decoded.text == "not available") continue;
+        ASSERT_GE(decoded.physical, decoded.signal->minimum - 1e-9) << name;
+        ASSERT_LE(decoded.physical, decoded.signal->maximum + 1e-9) << name;
       }
     }
   }
 }
 
-TEST(Dbc, KnowsTheCounterInEveryFrame) {
-  const Readings readings = read_by_dbc(encode(PoseMessage{}, kDefaultBaseId, 11));
-  int counters = 0;
-  for (const auto& [name, value] : readings) {
-    if (!name.ends_with(".Counter")) continue;
-    ++counters;
-    EXPECT_EQ(value, 11.0) << name;
-  }
-  EXPECT_EQ(counters, static_cast<int>(kFramesPerPose));
-}
-
-TEST(Dbc, NamesNotAvailableWhatAMessageWithoutAPoseCarries) {
-  int named = 0;
-  for (const PoseFrame& frame : encode(PoseMessage{}, kDefaultBaseId, 0)) {
-    for (const auto& [name, signal] : dbc().at(frame.id).signals) {
-      if (!signal.is_signed) continue;
-      ++named;
-      const auto raw = signal.raw(bytes(frame));
-      ASSERT_TRUE(signal.values.contains(raw)) << name << " " << raw;
-      EXPECT_EQ(signal.values.at(raw), "not available");
+TEST(Dbc, AllDotsAreAlike) {
+  for (unsigned dot = 2; dot <= 16; ++dot) {
+    for (const char* part : {"Position", "Detail"}) {
+      const DbcMessage& first = layout_of(std::string("Dot1") + part);
+      const DbcMessage& other = layout_of("Dot" + std::to_string(dot) + part);
+      EXPECT_EQ(other.id, first.id + 2 * (dot - 1));
+      ASSERT_EQ(other.signals.size(), first.signals.size());
+      for (std::size_t i = 0; i < first.signals.size(); ++i) {
+        const DbcSignal& a = first.signals[i];
+        const DbcSignal& b = other.signals[i];
+        EXPECT_EQ(a.name, b.name);
+        EXPECT_EQ(a.start, b.start);
+        EXPECT_EQ(a.length, b.length);
+        EXPECT_EQ(a.is_signed, b.is_signed);
+        EXPECT_EQ(a.factor, b.factor);
+        EXPECT_EQ(a.values, b.values);
+      }
     }
   }
-  EXPECT_EQ(named, 7);
 }
 
-TEST(Dbc, NamesStatesAndReasonsAsTheProgramDoes) {
-  const auto& status = dbc().at(kDefaultBaseId).signals;
-  EXPECT_EQ(status.at("State").values.size(), 2U);
-  for (const auto& [number, name] : status.at("State").values) {
-    EXPECT_EQ(name, core::to_string(static_cast<core::State>(number)));
-  }
-  const auto& reasons = status.at("Reason").values;
-  for (const auto& [number, name] : reasons) {
-    EXPECT_EQ(name, core::to_string(static_cast<core::Reason>(number)));
-  }
+// A name for each number that the program has a name for, and no other.
+template <class Enumeration>
+void expect_names(const Values& values) {
   for (int number = 0; number < 256; ++number) {
-    const bool known = core::to_string(static_cast<core::Reason>(number)) != "unknown";
-    EXPECT_EQ(reasons.contains(number), known) << "reason " << number;
+    const std::string_view name = to_string(static_cast<Enumeration>(number));
+    EXPECT_EQ(values.contains(number), name != "unknown") << number;
+    if (values.contains(number)) {
+      EXPECT_EQ(values.at(number), name);
+    }
+  }
+}
+
+TEST(Dbc, NamesStatesReasonsAndResultsAsTheProgramDoes) {
+  for (const char* message : {"Status", "FdPose"}) {
+    const Values states{{0, std::string(to_string(core::State::acquiring))},
+                        {1, std::string(to_string(core::State::tracking))}};
+    EXPECT_EQ(layout_of(message).signal("State")->values, states);
+    expect_names<core::Reason>(layout_of(message).signal("Reason")->values);
+  }
+  expect_names<CommandResult>(layout_of("Reply").signal("Result")->values);
+}
+
+TEST(Dbc, NamesCommandsInBothDirections) {
+  const Values commands{{1, "acquire"}, {2, "set_target"}, {3, "report_version"}};
+  EXPECT_EQ(layout_of("Command").signal("Command")->values, commands);
+  EXPECT_EQ(layout_of("Reply").signal("Command")->values, commands);
+}
+
+TEST(Dbc, NamesCameraHealthAndVisibility) {
+  const Values health{{0, "absent"}, {1, "used"},     {2, "unused"},    {3, "no_frame"},
+                      {4, "stale"},  {5, "overflow"}, {6, "iris_fault"}};
+  for (const DbcSignal& signal : layout_of("Cameras").signals) {
+    if (!signal.name.starts_with("Camera")) continue;
+    EXPECT_EQ(signal.values, health) << signal.name;
+  }
+  const Values visibility{{0, "not_seen"}, {1, "one_camera"}, {2, "located"}};
+  EXPECT_EQ(layout_of("Dot1Detail").signal("Visibility")->values, visibility);
+}
+
+TEST(Dbc, ExplainsEveryBitOfDegraded) {
+  for (const char* message : {"Quality", "FdPose"}) {
+    const std::string& comment = layout_of(message).signal("Degraded")->comment;
+    for (unsigned bit = 0; bit < 16; ++bit) {
+      const std::string_view name = to_string(static_cast<Degraded>(bit));
+      EXPECT_EQ(name != "unknown", bit < kDegradedReasons);
+      if (bit >= kDegradedReasons) continue;
+      const std::string entry = " " + std::to_string(bit) + " " + std::string(name);
+      EXPECT_NE(comment.find(entry), std::string::npos) << entry;
+    }
   }
 }
 

@@ -1,170 +1,166 @@
+// Every value of a message against what a reader of the bus has of it.
+
 #include "app/core/protocol/pose_message.h"
 
 #include <gtest/gtest.h>
 
-#include <limits>
-#include <random>
+#include <cmath>
 
-#include "app/core/protocol/pose_decoder.h"
-#include "app/core/protocol/pose_encoder.h"
-#include "app/core/protocol/pose_layout.h"
+#include "tests/unit/protocol/dbc_reading.h"
 #include "tests/unit/protocol/random_message.h"
 
-namespace dottrack::protocol {
+namespace dottrack::protocol::test {
 namespace {
 
-using test::random_message;
-
 constexpr double kDegreesPerRadian = 57.295779513082320877;
+constexpr double kTiny = 1e-12;
 
-std::optional<PoseMessage> push_all(PoseDecoder& decoder, const PoseFrames& frames) {
-  std::optional<PoseMessage> last;
-  for (const PoseFrame& frame : frames) last = decoder.push(frame.id, frame.data);
-  return last;
-}
+class Pose : public testing::TestWithParam<bool> {
+ protected:
+  static bool is_fd() { return GetParam(); }
+  static Addressing addressing() { return is_fd() ? fd() : classic(); }
+  // The classic message, which FdPose stands for.
+  static std::string of(const std::string& message, const std::string& signal) {
+    return (is_fd() ? "FdPose" : message) + "." + signal;
+  }
+};
 
-PoseMessage round_trip(const PoseMessage& message) {
-  PoseDecoder decoder(0x123);
-  const auto got = push_all(decoder, encode(message, 0x123, 5));
-  if (!got) throw std::runtime_error("five frames of one group made no message");
-  return *got;
-}
-
-TEST(PoseMessage, ComesBackWithinHalfAStepOfPositionAndTime) {
+TEST_P(Pose, PositionIsWithinHalfAStep) {
   std::mt19937_64 random(1);
-  for (int i = 0; i < 10000; ++i) {
+  for (int i = 0; i < 5000; ++i) {
     const PoseMessage sent = random_message(random);
-    const PoseMessage got = round_trip(sent);
-    ASSERT_TRUE(got.pose_valid);
-    ASSERT_LE((got.position_m - sent.position_m).cwiseAbs().maxCoeff(), 0.00005 + 1e-12);
-    const auto late = sent.mid_exposure - got.mid_exposure;
-    ASSERT_GE(late, Duration(0));
-    ASSERT_LT(late, std::chrono::microseconds(1));
+    const Reading got(encoded(sent, addressing(), {}));
+    ASSERT_NEAR(got(of("Position", "X")), sent.position_m.x(), 0.00005 + kTiny);
+    ASSERT_NEAR(got(of("Position", "Y")), sent.position_m.y(), 0.00005 + kTiny);
+    ASSERT_NEAR(got(of("Position2", "Z")), sent.position_m.z(), 0.00005 + kTiny);
   }
 }
 
-TEST(PoseMessage, RoundingTurnsTheAttitudeByLessThanFiveThousandthsOfADegree) {
+TEST_P(Pose, RoundingTurnsTheAttitudeByLessThanFiveThousandthsOfADegree) {
   std::mt19937_64 random(2);
   double worst_deg = 0.0;
-  for (int i = 0; i < 100000; ++i) {
-    PoseMessage sent = random_message(random);
-    const PoseMessage got = round_trip(sent);
-    const double error = sent.orientation.angularDistance(got.orientation) * kDegreesPerRadian;
-    worst_deg = std::max(worst_deg, error);
-  }
-  EXPECT_LT(worst_deg, 0.005);
-  EXPECT_GT(worst_deg, 0.0005);  // the bound is of the size that the layout's comment derives
-}
-
-TEST(PoseMessage, TheSignOfTheQuaternionSurvives) {
   PoseMessage sent;
   sent.pose_valid = true;
-  sent.orientation = Eigen::Quaterniond(-0.5, 0.5, -0.5, 0.5);
-  EXPECT_LT((round_trip(sent).orientation.coeffs() - sent.orientation.coeffs()).norm(), 1e-9);
+  const std::array<std::string, 4> names{of("Position2", "QW"), of("Orientation", "QX"),
+                                         of("Orientation", "QY"), of("Orientation", "QZ")};
+  for (int i = 0; i < 100000; ++i) {
+    sent.orientation = random_orientation(random);
+    const GroupFrames frames = encoded(sent, addressing(), {});
+    Reading got;
+    for (std::size_t f = is_fd() ? 0 : 4; f < frames.size(); ++f) got.add(frames[f]);
+    Eigen::Quaterniond q(got(names[0]), got(names[1]), got(names[2]), got(names[3]));
+    ASSERT_LE((q.coeffs() - sent.orientation.coeffs()).cwiseAbs().maxCoeff(), 0.0000155 + kTiny);
+    q.normalize();
+    worst_deg = std::max(worst_deg, sent.orientation.angularDistance(q) * kDegreesPerRadian);
+  }
+  EXPECT_LT(worst_deg, 0.005);
+  EXPECT_GT(worst_deg, 0.001);  // half a step of each of four components makes 0.0036
 }
 
-TEST(PoseMessage, StatusComesBackAsItWas) {
+TEST_P(Pose, TheSignOfTheQuaternionSurvives) {
+  PoseMessage sent;
+  sent.pose_valid = true;
+  for (const double w : {-0.5, 0.5, -1.0, 1.0}) {
+    const double rest = std::abs(w) == 1.0 ? 0.0 : w;
+    sent.orientation = Eigen::Quaterniond(w, -rest, rest, -rest);
+    const Reading got(encoded(sent, addressing(), {}));
+    EXPECT_NEAR(got(of("Position2", "QW")), w, 0.0000155 + kTiny);
+    EXPECT_NEAR(got(of("Orientation", "QX")), -rest, 0.0000155 + kTiny);
+    EXPECT_NEAR(got(of("Orientation", "QY")), rest, 0.0000155 + kTiny);
+    EXPECT_NEAR(got(of("Orientation", "QZ")), -rest, 0.0000155 + kTiny);
+  }
+}
+
+TEST_P(Pose, StatusIsAsItWas) {
   std::mt19937_64 random(3);
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 2000; ++i) {
     const PoseMessage sent = random_message(random);
-    const PoseMessage got = round_trip(sent);
-    ASSERT_EQ(got.state, sent.state);
-    ASSERT_EQ(got.reason, sent.reason);
-    ASSERT_EQ(got.cameras_used, sent.cameras_used);
-    ASSERT_EQ(got.dots_used, sent.dots_used);
-    ASSERT_EQ(got.reset_count, sent.reset_count);
-    ASSERT_FALSE(got.out_of_range);
+    const Reading got(encoded(sent, addressing(), {}));
+    ASSERT_EQ(got(of("Status", "Version")), kProtocolVersion);
+    ASSERT_EQ(got(of("Status", "State")), static_cast<int>(sent.state));
+    ASSERT_EQ(got(of("Status", "Reason")), static_cast<int>(sent.reason));
+    ASSERT_EQ(got(of("Status", "PoseValid")), 1.0);
+    ASSERT_EQ(got(of("Status", "OutOfRange")), 0.0);
+    ASSERT_EQ(got(of("Status", "CamerasUsed")), sent.cameras_used.bits());
+    ASSERT_EQ(got(of("Status", "DotsUsed")), sent.dots_used);
+    ASSERT_EQ(got(of("Status", "ResetCount")), sent.reset_count);
+    ASSERT_EQ(got.raw(of("Quality", "Degraded")), sent.degraded.bits());
   }
 }
 
-TEST(PoseMessage, WithoutAPoseNothingOfAnOldOneIsOnTheBus) {
+TEST_P(Pose, TimeIsFlooredToMicrosecondsAndAgeIsRoundedUp) {
   std::mt19937_64 random(4);
-  PoseMessage one = random_message(random);
-  PoseMessage other = one;
-  other.position_m += Eigen::Vector3d(1, 2, 3);
-  other.orientation = other.orientation.conjugate();
-  one.pose_valid = other.pose_valid = false;
-  const PoseFrames frames = encode(one, kDefaultBaseId, 3);
-  const PoseFrames other_frames = encode(other, kDefaultBaseId, 3);
-  for (std::size_t i = 0; i < frames.size(); ++i) EXPECT_EQ(frames[i].data, other_frames[i].data);
-  const PoseMessage got = round_trip(one);
-  EXPECT_FALSE(got.pose_valid);
-  EXPECT_EQ(got.position_m, Eigen::Vector3d::Zero());
-}
-
-TEST(PoseMessage, APoseThatDoesNotFitIsSaidNotToFit) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  for (const double x : {839.0, -839.0, 1e300, kNaN}) {
-    PoseMessage sent;
-    sent.pose_valid = true;
-    sent.position_m.x() = x;
-    const PoseMessage got = round_trip(sent);
-    EXPECT_FALSE(got.pose_valid) << x;
-    EXPECT_TRUE(got.out_of_range) << x;
+  for (int i = 0; i < 5000; ++i) {
+    const PoseMessage sent = random_message(random);
+    const Reading got(encoded(sent, addressing(), {}));
+    const std::int64_t us = got.raw(of("Time", "MidExposure"));
+    const std::int64_t truth_ns = sent.mid_exposure.time_since_epoch().count();
+    ASSERT_EQ(us, (truth_ns / 1000) & ((std::int64_t{1} << 48) - 1));
+    const Duration age = got.raw(of("Quality", "Age")) * std::chrono::microseconds(100);
+    ASSERT_GE(age, sent.age);
+    ASSERT_LT(age - sent.age, std::chrono::microseconds(100));
   }
-  PoseMessage no_unit;
-  no_unit.pose_valid = true;
-  no_unit.orientation.coeffs().setZero();
-  EXPECT_FALSE(round_trip(no_unit).pose_valid);
 }
 
-TEST(PoseMessage, TheCounterBindsTheGroupAndCountsModulo16) {
-  const PoseFrames frames = encode(PoseMessage{}, kDefaultBaseId, 16 + 9);
-  for (const PoseFrame& frame : frames) EXPECT_EQ(get(layout::kCounter, to_word(frame.data)), 9U);
-  for (std::uint32_t i = 0; i < frames.size(); ++i) EXPECT_EQ(frames[i].id, kDefaultBaseId + i);
-}
-
-TEST(PoseDecoder, MixesNoTwoGroups) {
+TEST_P(Pose, ResidualAndFalseLockNeverUnderstate) {
   std::mt19937_64 random(5);
-  const PoseFrames first = encode(random_message(random), kDefaultBaseId, 1);
-  const PoseFrames second = encode(random_message(random), kDefaultBaseId, 2);
-  PoseDecoder decoder;
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_FALSE(decoder.push(first[i].id, first[i].data));
-  for (std::size_t i = 3; i < 5; ++i) EXPECT_FALSE(decoder.push(second[i].id, second[i].data));
-  EXPECT_EQ(decoder.incomplete_groups(), 1U);
-  EXPECT_TRUE(push_all(decoder, encode(random_message(random), kDefaultBaseId, 3)));
-  EXPECT_EQ(decoder.incomplete_groups(), 2U);
+  std::uniform_real_distribution<double> exponent(-80.0, 0.0);
+  for (int i = 0; i < 5000; ++i) {
+    PoseMessage sent = random_message(random);
+    sent.false_lock_probability = i % 2 == 0 ? std::exp2(exponent(random))
+                                             : std::ldexp(1.0, -static_cast<int>(random() % 250));
+    const Reading got(encoded(sent, addressing(), {}));
+    const double residual = got(of("Position2", "Residual"));
+    ASSERT_GE(residual, sent.residual_m);
+    ASSERT_LT(residual, sent.residual_m + 0.00025 + kTiny);
+    const double bound = std::exp2(-got(of("Quality", "FalseLock")));
+    ASSERT_GE(bound, sent.false_lock_probability);
+    ASSERT_LT(bound, 2.0 * sent.false_lock_probability);
+  }
 }
 
-TEST(PoseDecoder, AFrameAgainStartsANewGroupEvenWithTheSameCounter) {
+TEST_P(Pose, MotionIsWithinHalfAStep) {
+  const GroupParts parts{.covariance = false, .motion = true, .cameras = false, .dots = false};
   std::mt19937_64 random(6);
-  const PoseMessage sent = random_message(random);
-  PoseDecoder decoder;
-  const PoseFrames old = encode(random_message(random), kDefaultBaseId, 7);
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_FALSE(decoder.push(old[i].id, old[i].data));
-  const auto got = push_all(decoder, encode(sent, kDefaultBaseId, 7));
-  ASSERT_TRUE(got);
-  EXPECT_EQ(got->reset_count, sent.reset_count);
-  EXPECT_EQ(decoder.incomplete_groups(), 1U);
+  for (int i = 0; i < 3000; ++i) {
+    const PoseMessage sent = random_message(random);
+    const Reading got(encoded(sent, addressing(), parts));
+    const Eigen::Vector3d v(got("Velocity.VX"), got("Velocity.VY"), got("Velocity.VZ"));
+    const Eigen::Vector3d w(got("Rates.WX"), got("Rates.WY"), got("Rates.WZ"));
+    ASSERT_LE((v - *sent.velocity_m_s).cwiseAbs().maxCoeff(), 0.0005 + kTiny);
+    ASSERT_LE((w - *sent.rates_rad_s).cwiseAbs().maxCoeff(), 0.00025 + kTiny);
+  }
 }
 
-TEST(PoseDecoder, LeavesOtherIdentifiersAlone) {
-  const PoseFrames frames = encode(PoseMessage{}, kDefaultBaseId, 0);
-  PoseDecoder decoder;
-  for (std::size_t i = 0; i < 4; ++i) decoder.push(frames[i].id, frames[i].data);
-  decoder.push(kDefaultBaseId - 1, Payload{});
-  decoder.push(kDefaultBaseId + 5, Payload{});
-  EXPECT_TRUE(decoder.push(frames[4].id, frames[4].data));
-  EXPECT_EQ(decoder.incomplete_groups(), 0U);
+TEST_P(Pose, EachDotAndEachCameraComesThrough) {
+  std::mt19937_64 random(7);
+  int seen = 0;
+  for (int i = 0; i < 300; ++i) {
+    PoseMessage sent = random_message(random);
+    sent.dots_known = 16;
+    const Reading got(encoded(sent, addressing()));
+    for (std::size_t k = 0; k < core::kMaxDots; ++k) {
+      const DotReport& dot = sent.dots[k];
+      const std::string name = "Dot" + std::to_string(k + 1);
+      ASSERT_EQ(got(name + "Detail.Visibility"), static_cast<int>(dot.visibility));
+      ASSERT_EQ(got(name + "Detail.Cameras"), dot.cameras.bits());
+      if (dot.visibility == Visibility::not_seen) continue;
+      ++seen;
+      ASSERT_NEAR(got(name + "Position.X"), dot.position_m.x(), 0.00005 + kTiny);
+      ASSERT_NEAR(got(name + "Position.Y"), dot.position_m.y(), 0.00005 + kTiny);
+      ASSERT_NEAR(got(name + "Detail.Z"), dot.position_m.z(), 0.00005 + kTiny);
+      ASSERT_GE(got(name + "Detail.Sigma"), dot.sigma_m);
+      ASSERT_LT(got(name + "Detail.Sigma"), dot.sigma_m + 0.0005 + kTiny);
+    }
+    for (std::size_t k = 0; k < kMaxCameras; ++k) {
+      const std::string name = "Cameras.Camera" + std::to_string(k + 1);
+      ASSERT_EQ(got(name), static_cast<int>(sent.cameras[k]));
+    }
+  }
+  EXPECT_GT(seen, 2000);
 }
 
-TEST(PoseDecoder, GivesNoMessageOfAVersionItDoesNotKnow) {
-  PoseFrames frames = encode(PoseMessage{}, kDefaultBaseId, 0);
-  frames[0].data[1] = static_cast<std::uint8_t>(frames[0].data[1] ^ 0xF0);
-  PoseDecoder decoder;
-  EXPECT_FALSE(push_all(decoder, frames));
-  EXPECT_EQ(decoder.foreign_versions(), 1U);
-}
-
-TEST(PoseDecoder, BelievesNoPoseThatIsMarkedNotAvailable) {
-  PoseMessage without;
-  PoseFrames frames = encode(without, kDefaultBaseId, 0);
-  frames[0].data[2] = static_cast<std::uint8_t>(frames[0].data[2] | 0x04);  // PoseValid
-  PoseDecoder decoder;
-  const auto got = push_all(decoder, frames);
-  ASSERT_TRUE(got);
-  EXPECT_FALSE(got->pose_valid);
-}
+INSTANTIATE_TEST_SUITE_P(ClassicAndFd, Pose, testing::Values(false, true));
 
 }  // namespace
-}  // namespace dottrack::protocol
+}  // namespace dottrack::protocol::test
