@@ -35,7 +35,7 @@ void MavlinkSender::send(const dottrack_pose& pose) {
   for (const MavlinkFrame& frame : link_->poses.frames_of(pose)) {
     all_left = link_->udp.send(frame.view()) && all_left;
   }
-  if (pose.valid) ++(all_left ? link_->sent : link_->failed);
+  if (can_be_handed_over(pose)) ++(all_left ? link_->sent : link_->failed);
 }
 
 std::uint64_t MavlinkSender::sent() const {

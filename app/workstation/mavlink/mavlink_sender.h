@@ -1,11 +1,12 @@
 #pragma once
 // Hands poses over to an autopilot (PX4, ArduPilot) or whatever else reads MAVLink 2, over UDP.
 //
-// Each valid pose becomes VISION_POSITION_ESTIMATE (#102) and ODOMETRY (#331), one datagram each,
-// and once a second of the poses' own time a HEARTBEAT (#0) goes ahead of them. Frames: the local
-// north-east-down frame is made of dottrack's world by north = y, east = x, down = -z; the body is
-// forward-right-down. Time: the middle of the exposure on the clock of dottrack_pose::arrival_us.
-// A network that takes nothing never stops the caller: what it refuses is counted and forgotten.
+// Each valid pose of known age becomes VISION_POSITION_ESTIMATE (#102) and ODOMETRY (#331), one
+// datagram each, and once a second of the poses' own time a HEARTBEAT (#0) goes ahead of them.
+// Frames: the local north-east-down frame is made of dottrack's world by north = y, east = x, down
+// = -z; the body is forward-right-down. Time: the middle of the exposure on the clock of
+// dottrack_pose::arrival_us. A network that takes nothing never stops the caller: what it refuses
+// is counted and forgotten.
 
 #include <cstdint>
 #include <memory>

@@ -1,5 +1,7 @@
 #include "app/workstation/mavlink/pose_sequence.h"
 
+#include <limits>
+
 namespace dottrack::workstation {
 namespace {
 
@@ -11,11 +13,15 @@ std::uint64_t exposure_us(const dottrack_pose& pose) {
 
 }  // namespace
 
+bool can_be_handed_over(const dottrack_pose& pose) {
+  return pose.valid && pose.age_us != std::numeric_limits<std::uint32_t>::max();
+}
+
 std::span<const MavlinkFrame> PoseSequence::frames_of(const dottrack_pose& pose) {
   count_ = 0;
   follow_resets(pose);
   if (heartbeat_due(pose.arrival_us)) append(heartbeat());
-  if (pose.valid) {
+  if (can_be_handed_over(pose)) {
     const VisionSample sample{.time_us = exposure_us(pose),
                               .pose = ned_pose(pose),
                               .reset_counter = reset_counter_,

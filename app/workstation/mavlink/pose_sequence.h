@@ -14,6 +14,9 @@
 
 namespace dottrack::workstation {
 
+// Whether it is sent as a pose: it is valid, and how old it is is known.
+bool can_be_handed_over(const dottrack_pose& pose);
+
 class PoseSequence {
  public:
   explicit PoseSequence(const MavlinkOptions& options) : options_(options) {}

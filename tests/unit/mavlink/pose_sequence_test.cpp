@@ -61,6 +61,14 @@ TEST(PoseSequence, SendsNoPoseThatIsNotValid) {
   EXPECT_THAT(numbers(sequence, none), IsEmpty());
 }
 
+TEST(PoseSequence, SendsNoPoseOfUnknownAge) {
+  PoseSequence sequence({});
+  dottrack_pose pose = at(1'000'000);
+  pose.age_us = UINT32_MAX;
+  EXPECT_FALSE(can_be_handed_over(pose));
+  EXPECT_THAT(numbers(sequence, pose), ElementsAre(kHeartbeat));
+}
+
 TEST(PoseSequence, SendsTheMessagesAskedFor) {
   PoseSequence odometry({.vision_position_estimate = false});
   EXPECT_THAT(numbers(odometry, at(0)), ElementsAre(kHeartbeat, kOdometry));
