@@ -18,7 +18,7 @@ std::size_t camera_in_use(const Board& board) {
   const std::size_t size = board.poses().size();
   for (const ReceivedPose& pose : board.poses().from(size - std::min(size, kMessages))) {
     for (std::size_t i = 0; i < kMaxCameras; ++i) {
-      uses[i] += is_pose(pose) && pose.message.cameras_used.contains(i) ? 1 : 0;
+      uses[i] += is_pose(pose) && rests_on(pose, i) ? 1 : 0;
     }
   }
   return static_cast<std::size_t>(std::max_element(uses.begin(), uses.end()) - uses.begin());
@@ -32,7 +32,7 @@ Result<std::string> unplug_and_plug_in(Board& board, std::size_t camera) {
   const std::size_t first = board.poses().size();
   board.cameras().unplug(camera);
   const auto without = [&](const ReceivedPose& pose) {
-    return is_pose(pose) && !pose.message.cameras_used.contains(camera);
+    return is_pose(pose) && !rests_on(pose, camera);
   };
   const auto gone = board.poses().wait_for(without, kPosesToGoOn, first, kPosePatience);
   if (!gone) return fail(fmt::format("{} unplugged: no poses without it", name));
@@ -47,7 +47,7 @@ Result<std::string> unplug_and_plug_in(Board& board, std::size_t camera) {
   const Time plugged_in = host_now();
   board.cameras().plug_in(camera);
   const auto with = [&](const ReceivedPose& pose) {
-    return is_pose(pose) && pose.message.cameras_used.contains(camera);
+    return is_pose(pose) && rests_on(pose, camera);
   };
   const auto used = board.poses().wait_for(with, 3, back, kPosePatience);
   if (!used) return fail(fmt::format("{} plugged in again: no poses with it", name));

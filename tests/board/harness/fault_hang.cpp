@@ -15,6 +15,7 @@ constexpr auto kReturnPatience = seconds(300);
 Result<std::string> stop_and_wait(Board& board) {
   const std::size_t resets = board.emulator().resets();
   const std::size_t bites = board.emulator().watchdog_bites();
+  const std::uint64_t restarts = board.poses().counts().restarts;
   const auto stopped = board.shell().check(
       "kill -STOP \"$(systemctl show -p MainPID --value dottrackd.service)\"", kCommandPatience);
   if (!stopped) return stopped;
@@ -33,6 +34,9 @@ Result<std::string> stop_and_wait(Board& board) {
       seconds_between(reset_at, board.poses().from(*tracking - 1).front().received);
   const auto on = await_poses(board, first, kPosesToGoOn, kPosePatience);
   if (!on) return fail("after the reset: " + on.error().message);
+  if (board.poses().counts().restarts != restarts + 1) {
+    return fail("the receiver did not notice that the unit's clock began anew");
+  }
   return with_right_poses(board, first,
                           fmt::format("reset after {:.1f} s, tracking {:.1f} s later by itself",
                                       seconds_between(stopped_at, reset_at), back_s));

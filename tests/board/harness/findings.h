@@ -13,6 +13,9 @@ namespace dottrack::board {
 // What a good run shows: from power-on to `poses` poses.
 std::vector<Finding> nominal_findings(Board& board, std::size_t poses);
 
+// Of them, what the messages from `first` on say besides poses.
+std::vector<Finding> bus_findings(Board& board, std::size_t first);
+
 // The faults; each leaves the unit tracking.
 Finding camera_unplugged(Board& board);
 Finding can_bus_down(Board& board);

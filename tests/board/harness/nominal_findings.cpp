@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <string_view>
+#include <utility>
 
 #include "tests/board/harness/findings.h"
 #include "tests/board/harness/host_clock.h"
@@ -32,7 +34,7 @@ Finding acquisition(Board& board, std::size_t first) {
   return {"acquisition", true,
           fmt::format("in tick {} of the unit, {:.1f} s after the first; {} cameras, {} dots; {} "
                       "locks with the irises' homing",
-                      first + 1, took_s, messages[first].message.cameras_used.size(),
+                      first + 1, took_s, std::popcount(messages[first].message.cameras_used),
                       messages[first].message.dots_used, messages.back().message.reset_count)};
 }
 
@@ -40,7 +42,7 @@ Finding acquisition(Board& board, std::size_t first) {
 std::string reasons_without(const std::vector<ReceivedPose>& messages) {
   std::map<std::string_view, int> counts;
   for (const ReceivedPose& pose : messages) {
-    if (!is_pose(pose)) ++counts[core::to_string(pose.message.reason)];
+    if (!is_pose(pose)) ++counts[dottrack_reason_text(pose.message.reason)];
   }
   std::string text;
   for (const auto& [reason, count] : counts) {
@@ -53,11 +55,11 @@ Finding poses_received(Board& board, std::size_t first) {
   const auto messages = board.poses().from(first);
   const auto poses = std::count_if(messages.begin(), messages.end(), is_pose);
   const double took_s = seconds_between(messages.front().received, messages.back().received);
-  const auto incomplete = board.poses().incomplete_groups();
-  return {"poses received", incomplete == 0,
+  const dottrack_counts counts = board.poses().counts();
+  return {"poses received", counts.incomplete == 0,
           fmt::format("{} in {} ticks of {:.2f} s; {} messages incomplete; without: {}", poses,
                       messages.size(), took_s / static_cast<double>(messages.size() - 1),
-                      incomplete, reasons_without(messages))};
+                      counts.incomplete, reasons_without(messages))};
 }
 
 Finding exposures(Board& board) {
@@ -144,6 +146,7 @@ std::vector<Finding> nominal_findings(Board& board, std::size_t poses) {
   findings.push_back(exposures(board));
   findings.push_back(poses_received(board, begin));
   if (!enough) findings.push_back({"enough poses", false, enough.error().message});
+  for (Finding& finding : bus_findings(board, begin)) findings.push_back(std::move(finding));
   const PoseCheck check = check_poses(board, begin);
   findings.push_back(position_error(check));
   findings.push_back(attitude_error(check));

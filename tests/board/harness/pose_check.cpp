@@ -29,7 +29,7 @@ PoseCheck check_poses(Board& board, std::size_t first) {
       std::chrono::duration<double>(kReach_periods / board.scene().frame_rate_hz));
   for (const ReceivedPose& pose : board.poses().from(first)) {
     if (!is_pose(pose)) continue;
-    const Time stamp = board.to_host(pose.boot, pose.message.mid_exposure);
+    const Time stamp = board.to_host(pose.boot, mid_exposure(pose));
     const auto match = match_exposure(stamp, barriers, exposure, reach);
     const auto true_pose =
         match ? host_sim::truth(board.scene(), match->barrier.scene_time_s) : std::nullopt;
@@ -38,7 +38,7 @@ PoseCheck check_poses(Board& board, std::size_t first) {
       continue;
     }
     check.late_ms.push_back(to_seconds(match->late) * 1e3);
-    check.truth.add({pose.message.position_m, pose.message.orientation},
+    check.truth.add({position_m(pose), orientation(pose)},
                     {true_pose->position_m, true_pose->orientation()});
   }
   std::sort(check.late_ms.begin(), check.late_ms.end());
@@ -54,8 +54,8 @@ Result<std::size_t> await_poses(Board& board, std::size_t first, std::size_t cou
   std::string text = fmt::format("{} of {} poses within {:.0f} s, {} messages", poses, count,
                                  to_seconds(patience), messages.size());
   if (!messages.empty()) {
-    text +=
-        fmt::format(", the last with reason {}", static_cast<int>(messages.back().message.reason));
+    text += fmt::format(", the last with reason {}",
+                        dottrack_reason_text(messages.back().message.reason));
   }
   return fail(text);
 }

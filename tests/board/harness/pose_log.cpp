@@ -2,26 +2,58 @@
 
 #include <algorithm>
 
-#include "tests/board/harness/candump_line.h"
+#include "drivers/candump/candump_line.h"
 
 namespace dottrack::board {
+namespace {
+
+dottrack_settings patient_settings() {
+  dottrack_settings settings = dottrack_default_settings();
+  settings.age_limit_us = PoseLog::kAgeLimit_us;
+  settings.group_timeout_us = PoseLog::kGroupTimeout_us;
+  return settings;
+}
+
+dottrack_frame to_c(const hal::CanFrame& frame) {
+  dottrack_frame c{};
+  c.id = frame.id;
+  c.extended = frame.extended;
+  c.length = frame.length;
+  std::copy(frame.data.begin(), frame.data.end(), c.data);
+  return c;
+}
+
+std::uint64_t groups(const dottrack_counts& counts) {
+  return counts.fresh + counts.stale;
+}
+
+}  // namespace
+
+PoseLog::PoseLog() {
+  const dottrack_settings settings = patient_settings();
+  dottrack_receiver_init(&receiver_, &settings);
+}
 
 void PoseLog::take(const LoggedLine& line) {
-  const auto frame = parse_candump_line(line.text);
-  protocol::Payload payload{};
-  if (!frame || frame->length != payload.size()) return;
-  std::copy_n(frame->data.begin(), payload.size(), payload.begin());
+  const auto logged = drivers::parse_candump_line(line.text);
+  if (!logged) return;
+  const dottrack_frame frame = to_c(logged->frame);
+  const auto arrival = std::chrono::floor<std::chrono::microseconds>(line.received);
+  const auto arrival_us = static_cast<std::uint64_t>(arrival.time_since_epoch().count());
   const std::lock_guard lock(mutex_);
-  const auto message = decoder_.push(frame->id, payload);
-  if (!message) return;
-  poses_.push_back({*message, line.received, boot_});
+  const std::uint64_t before = groups(receiver_.counts);
+  ReceivedPose pose;
+  const auto verdict = dottrack_receiver_push(&receiver_, &frame, arrival_us, &pose.message);
+  if (groups(receiver_.counts) == before) return;
+  pose.fresh = verdict == DOTTRACK_FRESH;
+  pose.received = line.received;
+  pose.boot = boot_;
+  poses_.push_back(pose);
   changed_.notify_all();
 }
 
 void PoseLog::start_boot() {
   const std::lock_guard lock(mutex_);
-  earlier_incomplete_groups_ += decoder_.incomplete_groups();
-  decoder_ = protocol::PoseDecoder();
   ++boot_;
 }
 
@@ -36,9 +68,14 @@ std::vector<ReceivedPose> PoseLog::from(std::size_t first) const {
   return {poses_.begin() + static_cast<std::ptrdiff_t>(first), poses_.end()};
 }
 
-std::uint64_t PoseLog::incomplete_groups() const {
+dottrack_counts PoseLog::counts() const {
   const std::lock_guard lock(mutex_);
-  return earlier_incomplete_groups_ + decoder_.incomplete_groups();
+  return receiver_.counts;
+}
+
+dottrack_unit PoseLog::unit() const {
+  const std::lock_guard lock(mutex_);
+  return receiver_.unit;
 }
 
 std::optional<std::size_t> PoseLog::wait_for(const Fits& fits, std::size_t count, std::size_t first,

@@ -1,33 +1,46 @@
 #pragma once
-// The pose messages that the listening CAN controller received.
+// The poses that the listening CAN controller received, as a vehicle's receiver has them.
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <vector>
 
-#include "app/core/protocol/pose_decoder.h"
+#include "app/core/protocol/receiver/dottrack_receiver.h"
 #include "tests/board/harness/line_log.h"
 
 namespace dottrack::board {
 
 struct ReceivedPose {
-  protocol::PoseMessage message;
-  Time received{};  // on this machine's clock
+  dottrack_pose message{};
+  bool fresh = false;  // else stale
+  Time received{};     // on this machine's clock
   unsigned boot = 0;
 };
 
-// From any thread. Fed with the lines of candump.
+// From any thread. Fed with the lines of candump. One receiver for the whole run: that the unit was
+// reset, it has to find out by itself.
 class PoseLog {
  public:
+  // The emulator keeps no real time: a pose counts as stale, and a group as given up, only after
+  // far longer than on a real bus.
+  static constexpr std::uint32_t kAgeLimit_us = 5'000'000;
+  static constexpr std::uint32_t kGroupTimeout_us = 5'000'000;
+
+  PoseLog();
+
   void take(const LoggedLine& line);
   void start_boot();
 
   std::size_t size() const;
   std::vector<ReceivedPose> from(std::size_t first) const;
-  std::uint64_t incomplete_groups() const;
+  dottrack_counts counts() const;
+  dottrack_unit unit() const;
 
   // The index of the `count`-th message from `first` on that fits, once it is there; nothing when
   // it is not within `patience`.
@@ -38,15 +51,31 @@ class PoseLog {
  private:
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
-  protocol::PoseDecoder decoder_;
+  dottrack_receiver receiver_{};
   std::vector<ReceivedPose> poses_;
-  std::uint64_t earlier_incomplete_groups_ = 0;
   unsigned boot_ = 0;
 };
 
 // A pose of the vehicle, not only a sign of life.
 inline bool is_pose(const ReceivedPose& pose) {
-  return pose.message.pose_valid && pose.message.state == core::State::tracking;
+  return pose.message.valid && pose.message.state == DOTTRACK_TRACKING;
+}
+
+inline bool rests_on(const ReceivedPose& pose, std::size_t camera) {
+  return (pose.message.cameras_used >> camera & 1) != 0;
+}
+
+inline Time mid_exposure(const ReceivedPose& pose) {
+  return Time(std::chrono::microseconds(pose.message.capture_us));
+}
+
+inline Eigen::Vector3d position_m(const ReceivedPose& pose) {
+  return Eigen::Vector3d(pose.message.position_m);
+}
+
+inline Eigen::Quaterniond orientation(const ReceivedPose& pose) {
+  const double* wxyz = pose.message.orientation_wxyz;
+  return {wxyz[0], wxyz[1], wxyz[2], wxyz[3]};
 }
 
 }  // namespace dottrack::board

@@ -26,7 +26,6 @@ std::string camera_keys(const host_sim::SceneCamera& camera, std::size_t index) 
 
 std::string tables() {
   return fmt::format(
-      "\n[can]\ninterface = \"can0\"\n"
       "\n[trigger]\nchip = \"{0}\"\nline = {1}\ncameras_follow = false\n"
       "\n[lamp]\nchip = \"{0}\"\nline = {2}\n"
       "\n[loop]\nwatchdog = \"/dev/watchdog0\"\nwatchdog_s = {3:.1f}\n"
