@@ -100,7 +100,7 @@ macro(read_values number line)
 endmacro()
 
 macro(read_attribute number line)
-  if(NOT "${line}" MATCHES "^BA_ \"[A-Za-z0-9]+\" .*${semicolon}$")
+  if(NOT "${line}" MATCHES "^BA_ \"[A-Za-z0-9_]+\" .*${semicolon}$")
     complain(${number} "${line}" "expected 'BA_ \"Name\" ... ;'")
   endif()
   if("${line}" MATCHES "^BA_ \"E2EDataId\" ")
