@@ -1,11 +1,11 @@
 // Every signal of every frame in a log, read by a DBC library that is not ours, against what
 // `dottrack monitor --json --signals` says.
 //
-//   node can_check.mjs DOTTRACK CAN.LOG [--base-id N] [--extended] [--fewest N]
+//   node can_check.mjs DOTTRACK CAN.LOG [--base-id N] [--extended] [--poses POSES.CSV]
 //
 // The layout is the one that `DOTTRACK dbc` prints for these identifiers. Raw values must be equal bit
 // for bit, and with them what the value tables call them; so must physical values, but for the
-// rounding of printed numbers.
+// rounding of printed numbers. With --poses also against what the tracker found.
 //
 // candied 2.2.0 has limits, which this works around:
 // - it reads one digit of a message's length, so that 64 bytes become 6: the length comes from the file;
@@ -19,10 +19,13 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
 import candied from 'candied';
+import { compareWithPoses, groupsOf, posesOf } from './poses_check.mjs';
 
 const EXTENDED = 0x80000000; // of an identifier in a DBC file
 const NOT_AVAILABLE = 'not available';
 const PRINTED = 1e-11; // relative: monitor prints twelve digits
+const FEWEST_FRAMES = 1000;
+const FEWEST_POSES = 100;
 
 class Mismatch extends Error {}
 
@@ -59,7 +62,10 @@ function readerOf(dbc) {
   expect(known === signals, `${known} of ${signals} signals`);
   const can = new candied.Can();
   can.database = data;
-  return (frame) => can.decode({ ...frame, id: frame.id + (frame.isExtended ? EXTENDED : 0) });
+  return (frame) => {
+    const message = can.decode({ ...frame, id: frame.id + (frame.isExtended ? EXTENDED : 0) });
+    return message && { ...message, frame };
+  };
 }
 
 // --- the comparison ---
@@ -79,28 +85,29 @@ function compareSignal(name, bound, physical) {
   expect(!within || Math.abs(bound.value - expected) <= PRINTED * Math.abs(expected), `${name}: ${bound.value}, ${expected}`);
 }
 
-function compareFrame(frame, message, line) {
-  const where = `${frame.time} ${message.name}`;
-  expect(line.message === message.name && line.id === frame.id, `${where} here, ${line.message} there`);
+function compareFrame(message, line) {
+  const where = `${message.frame.time} ${message.name}`;
+  expect(line.message === message.name && line.id === message.frame.id, `${where} here, ${line.message} there`);
   const theirs = [...message.boundSignals.keys()].sort();
   expect(theirs.join() === Object.keys(line.signals).sort().join(), `${where}: other signals`);
   for (const [name, bound] of message.boundSignals) compareSignal(`${where} ${name}`, bound, line.signals[name]);
   return theirs.length;
 }
 
-function compare(frames, decode, lines) {
-  const seen = new Map();
-  let next = 0;
-  let signals = 0;
-  for (const frame of frames) {
-    const message = decode(frame);
-    if (!message) continue;
-    expect(next < lines.length, `${lines.length} frames from monitor, more here`);
-    signals += compareFrame(frame, message, lines[next++]);
-    seen.set(message.name, (seen.get(message.name) ?? 0) + 1);
-  }
-  expect(next === lines.length, `${lines.length} frames from monitor, ${next} here`);
-  return { frames: next, signals, messages: seen.size };
+function compare(messages, lines) {
+  expect(messages.length === lines.length, `${messages.length} frames here, ${lines.length} there`);
+  expect(messages.length >= FEWEST_FRAMES, `${messages.length} frames; expected at least ${FEWEST_FRAMES}`);
+  const compared = messages.map((message, i) => compareFrame(message, lines[i]));
+  const kinds = new Set(messages.map((message) => message.name)).size;
+  const signals = compared.reduce((sum, count) => sum + count, 0);
+  return `${messages.length} frames of ${kinds} messages, ${signals} signals`;
+}
+
+function compareTracker(messages, csv) {
+  const { difference, groups, valid } = compareWithPoses(groupsOf(messages), posesOf(csv));
+  expect(difference === undefined, difference);
+  expect(valid >= FEWEST_POSES, `${valid} poses; expected at least ${FEWEST_POSES}`);
+  return `, ${groups} groups as the tracker has them, ${valid} with a pose`;
 }
 
 function addressingArgs(values) {
@@ -110,27 +117,25 @@ function addressingArgs(values) {
 function check(dottrack, log, values) {
   const addressing = addressingArgs(values);
   const decode = readerOf(run(dottrack, ['dbc', ...addressing]));
+  const messages = framesOf(log).map(decode).filter(Boolean);
   const monitored = run(dottrack, ['monitor', '--log', log, '--json', '--signals', ...addressing]);
   const lines = monitored.split('\n').filter(Boolean).map((line) => JSON.parse(line));
-  const counts = compare(framesOf(log), decode, lines.filter((line) => 'signals' in line));
-  const fewest = Number(values.fewest ?? 1000);
-  expect(counts.frames >= fewest, `${counts.frames} frames; expected at least ${fewest}`);
-  return counts;
+  const found = compare(messages, lines.filter((line) => 'signals' in line));
+  return found + (values.poses ? compareTracker(messages, readFileSync(values.poses, 'utf8')) : '');
 }
 
 function main() {
   const { values, positionals } = parseArgs({
     allowPositionals: true,
-    options: { 'base-id': { type: 'string' }, extended: { type: 'boolean' }, fewest: { type: 'string' } },
+    options: { 'base-id': { type: 'string' }, extended: { type: 'boolean' }, poses: { type: 'string' } },
   });
   const [dottrack, log] = positionals;
   if (!dottrack || !log) {
-    console.error('usage: node can_check.mjs DOTTRACK CAN.LOG [--base-id N] [--extended] [--fewest N]');
+    console.error('usage: node can_check.mjs DOTTRACK CAN.LOG [--base-id N] [--extended] [--poses POSES.CSV]');
     return 2;
   }
   try {
-    const { frames, signals, messages } = check(dottrack, log, values);
-    console.log(`candied: ${frames} frames of ${messages} messages, ${signals} signals: all agree`);
+    console.log(`candied: ${check(dottrack, log, values)}: all agree`);
     return 0;
   } catch (error) {
     console.error(`candied: ${error instanceof Mismatch ? error.message : error.stack}`);

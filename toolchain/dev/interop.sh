@@ -37,7 +37,8 @@ run_interop_checks() {
   for scenario in "${interop_scenarios[@]}"; do
     mapfile -t ids < <(identifiers_of "$scenario")
     make_log "$dottrack" "$scenario" || { count_check 1; continue; }
-    read_by_others "$scenario" "$interop_out/$scenario/can.log" "${ids[@]}"
+    read_by_others "$scenario" "$interop_out/$scenario/can.log" "${ids[@]}" \
+      --poses "$interop_out/$scenario/poses.csv"
   done
   # What a kernel's CAN delivered, where the virtual board has run.
   [[ ! -s out/board/can.log ]] || read_by_others board out/board/can.log
@@ -50,7 +51,7 @@ make_log() {
   step "log $2" "interop-log-$2" "$1" sim "tests/interop/scenarios/$2.toml" --out "$interop_out/$2"
 }
 
-# read_by_others NAME LOG [IDENTIFIERS...]
+# read_by_others NAME LOG [OPTIONS OF can_check.mjs...]
 read_by_others() {
   local name=$1 log=$2 dottrack=$PWD/build/release/bin/dottrack
   shift 2
