@@ -146,13 +146,26 @@ if(NOT ids)
 endif()
 
 list(GET ids 0 base)
-set(text "#pragma once\n// Made from dottrack.dbc by dbc_layout.cmake when building.\n\n#include \"app/core/protocol/layout_types.h\"\n\nnamespace dottrack::protocol::layout {\n\ninline constexpr std::uint32_t kBaseId = ${base};\n")
+set(text "#pragma once
+// Made from dottrack.dbc by dbc_layout.cmake when building.
+
+#include <array>
+
+#include \"app/core/protocol/layout_types.h\"
+
+namespace dottrack::protocol::layout {
+
+inline constexpr std::uint32_t kBaseId = ${base};
+")
+set(table "")
+set(signals 0)
 foreach(id IN LISTS ids)
   if(NOT DEFINED data_id_of_${id})
     message(FATAL_ERROR "${DBC}: BO_ ${id} ${name_of_${id}} has no attribute E2EDataId")
   endif()
+  set(space ${name_of_${id}})
   math(EXPR offset "${id} - ${base}")
-  string(APPEND text "\nnamespace ${name_of_${id}} {\ninline constexpr Message kMessage{${offset}, ${length_of_${id}}, ${data_id_of_${id}}};\n")
+  string(APPEND text "\nnamespace ${space} {\ninline constexpr Message kMessage{${offset}, ${length_of_${id}}, ${data_id_of_${id}}};\n")
   foreach(signal IN LISTS signals_of_${id})
     set(key ${id}_${signal})
     set(is_signed false)
@@ -160,8 +173,16 @@ foreach(id IN LISTS ids)
       set(is_signed true)
     endif()
     string(APPEND text "inline constexpr Signal k${signal}{{${start_of_${key}}, ${bits_of_${key}}}, ${is_signed}, ${marked_${key}}, ${factor_of_${key}}};\n")
+    string(APPEND table "    {${space}::kMessage, ${space}::k${signal}, \"${signal}\"},\n")
+    math(EXPR signals "${signals} + 1")
   endforeach()
-  string(APPEND text "}  // namespace ${name_of_${id}}\n")
+  string(APPEND text "}  // namespace ${space}\n")
 endforeach()
-string(APPEND text "\n}  // namespace dottrack::protocol::layout\n")
+string(APPEND text "
+// All of them, in the order of the DBC.
+inline constexpr std::array<NamedSignal, ${signals}> kSignals{{
+${table}}};
+
+}  // namespace dottrack::protocol::layout
+")
 file(WRITE "${HEADER}" "${text}")

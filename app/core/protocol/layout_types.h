@@ -2,6 +2,7 @@
 // What dbc_layout.h, made from dottrack.dbc, is written in.
 
 #include <cstdint>
+#include <string_view>
 
 #include "app/core/protocol/can_payload.h"
 
@@ -34,6 +35,12 @@ struct Signal : Field {
   constexpr std::uint64_t not_available() const {
     return is_signed ? std::uint64_t{1} << (length - 1U) : mask();
   }
+};
+
+struct NamedSignal {
+  Message message;
+  Signal signal;
+  std::string_view name;
 };
 
 }  // namespace dottrack::protocol::layout
