@@ -6,11 +6,15 @@
 #include <exception>
 #include <string>
 
+#include "app/workstation/busload_command.h"
 #include "app/workstation/camera_command.h"
+#include "app/workstation/dbc_command.h"
 #include "app/workstation/exit_status.h"
 #include "app/workstation/experiments_command.h"
+#include "app/workstation/monitor_command.h"
 #include "app/workstation/replay_command.h"
 #include "app/workstation/sim_command.h"
+#include "app/workstation/unit_command.h"
 
 namespace {
 
@@ -52,6 +56,10 @@ void add_commands(CLI::App& app, int& exit_status) {
   dottrack::workstation::add_sim_command(app, exit_status);
   dottrack::workstation::add_experiments_command(app, exit_status);
   dottrack::workstation::add_camera_command(app, exit_status);
+  dottrack::workstation::add_monitor_command(app, exit_status);
+  dottrack::workstation::add_dbc_command(app, exit_status);
+  dottrack::workstation::add_unit_command(app, exit_status);
+  dottrack::workstation::add_busload_command(app, exit_status);
 }
 
 int run(int argc, char** argv) {
