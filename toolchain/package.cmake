@@ -13,6 +13,16 @@ if(TARGET dottrackd)
           RENAME dottrack.conf COMPONENT unit)
   install(FILES ${package_folder}/rig.toml DESTINATION share/doc/dottrack/examples COMPONENT unit)
 
+  # For whoever listens on the bus: the layout of the messages and the receiver to be copied.
+  set(protocol_folder ${PROJECT_SOURCE_DIR}/app/core/protocol)
+  install(FILES ${protocol_folder}/dottrack.dbc DESTINATION share/dottrack COMPONENT unit)
+  install(FILES ${protocol_folder}/receiver/dottrack_receiver.h
+                ${protocol_folder}/receiver/dottrack_receiver.c
+          DESTINATION share/dottrack/receiver COMPONENT unit)
+  install(FILES ${protocol_folder}/receiver/example/print_poses.c
+                ${protocol_folder}/receiver/example/README.md
+          DESTINATION share/dottrack/receiver/example COMPONENT unit)
+
   set(CPACK_GENERATOR DEB)
   set(CPACK_PACKAGE_NAME dottrack)
   set(CPACK_PACKAGE_CONTACT "The dottrack developers <dottrack@localhost>")

@@ -1,12 +1,24 @@
 /* dottrack receiver: from CAN frames to poses a vehicle can trust.
  *
- * Two files, C11 (or C++), no heap, no library, no clock: copy dottrack_receiver.h and
- * dottrack_receiver.c into your program. Layout of the messages: dottrack.dbc. What a receiver must
- * do, and why: docs/can.md. One receiver a unit; not for several threads at once.
+ * Two files, C11 (this header C++, too), no heap, no library, no clock: copy dottrack_receiver.h
+ * and dottrack_receiver.c into your program. Layout of the messages: dottrack.dbc. What a receiver
+ * must do, and why: docs/can.md. One receiver a unit; not for several threads at once.
  *
  * Give every frame of the bus to dottrack_receiver_push(), with the time at which it arrived on a
  * clock of yours that never goes back, in microseconds; call dottrack_receiver_poll() when nothing
- * arrives. Use a pose only while the verdict is DOTTRACK_FRESH and pose.valid is true. */
+ * arrives. Use a pose only while the verdict is DOTTRACK_FRESH and pose.valid is true.
+ *
+ * A group begins with any of its frames and is complete when all are there that Quality (in FD:
+ * FdPose) announces, in any order. A later sequence, or group_timeout_us, gives it up. Sequences
+ * 128 to 255 ahead are behind: such frames are late and change nothing. After restart_gap_us
+ * without a frame in order any sequence is a beginning; it has to be longer than the time between
+ * two groups.
+ *
+ * The two clocks need not agree: what a group was on its way longer than the quickest counts as its
+ * age, and the quickest may become slower by 120 ppm, so much clocks drift apart. A delay that is
+ * there from the first group on cannot be known. A unit whose clock began anew is taken up again
+ * after restart_gap_us without a fresh group (pose.restarted); a delay that comes after a silence
+ * and continues the sequence is none, and its groups stay stale. */
 #ifndef DOTTRACK_RECEIVER_H
 #define DOTTRACK_RECEIVER_H
 
@@ -32,15 +44,16 @@ typedef struct dottrack_frame {
 } dottrack_frame;
 
 typedef enum dottrack_verdict {
-  DOTTRACK_FOREIGN = 0,  /* not a frame of this unit: nothing changed */
-  DOTTRACK_WAITING,      /* a sound frame; its group is not complete yet */
-  DOTTRACK_FRESH,        /* completes a group that is sound, newer than all before, young enough */
-  DOTTRACK_STALE,        /* completes a group older than the age limit or than the one before; or a
-                            frame that comes after its group was given up; or, from poll, there is
-                            no fresh group within the age limit */
-  DOTTRACK_INCOMPLETE,   /* the group before was given up: frames of it never came */
-  DOTTRACK_CORRUPTED,    /* checksum, length or content is impossible */
-  DOTTRACK_REPEATED,     /* a frame or a group that has been here before */
+  DOTTRACK_FOREIGN = 0, /* not a frame of this unit: nothing changed */
+  DOTTRACK_WAITING,     /* a sound frame that completes no group */
+  DOTTRACK_FRESH,       /* completes a group that is sound, newer than all before, young enough */
+  DOTTRACK_STALE,       /* completes a group older than the age limit, without an age, or older than
+                           the one before; or a frame that comes after its group was given up or
+                           overtaken; or, from poll, there is no fresh group within the age limit */
+  DOTTRACK_INCOMPLETE,  /* the group before was given up: frames of it never came */
+  DOTTRACK_CORRUPTED,   /* checksum or length is wrong, or a group says what the layout does not
+                           allow; numbers of reasons that a newer unit may have are allowed */
+  DOTTRACK_REPEATED,    /* a frame or a group (by its capture time) that has been here before */
   DOTTRACK_OTHER_VERSION /* another layout of the messages than this receiver's */
 } dottrack_verdict;
 
@@ -60,7 +73,8 @@ typedef struct dottrack_dot {
   double sigma_m;       /* root of the covariance's trace; negative: not known */
 } dottrack_dot;
 
-/* T_world_vehicle: right-handed, world z up; vehicle x forward, y left, z up. */
+/* T_world_vehicle: right-handed, world z up; vehicle x forward, y left, z up. What is not available
+ * is zero. */
 typedef struct dottrack_pose {
   uint8_t sequence;
   uint8_t state;         /* dottrack_state */
@@ -92,6 +106,7 @@ typedef struct dottrack_pose {
   uint8_t camera_health[DOTTRACK_MAX_CAMERAS]; /* dottrack_health_text() */
 } dottrack_pose;
 
+/* From Version and Configuration. Of a unit with another protocol only its number is read. */
 typedef struct dottrack_unit {
   bool has_version;
   uint8_t protocol, major, minor, patch;
@@ -101,20 +116,21 @@ typedef struct dottrack_unit {
   uint8_t target, cameras;
 } dottrack_unit;
 
-/* Of frames and groups since dottrack_receiver_init(). */
+/* Of frames and groups since dottrack_receiver_init(). The first group of all may have been joined
+ * in the middle: it is not counted as incomplete. */
 typedef struct dottrack_counts {
   uint64_t frames; /* of this unit's identifiers */
   uint64_t fresh;  /* groups */
   uint64_t stale;  /* groups */
   uint64_t repeated_groups;
   uint64_t incomplete;  /* groups given up with at least one frame */
-  uint64_t lost_groups; /* never seen at all, by the sequence */
+  uint64_t lost_groups; /* never seen at all, by the sequence; 256 in a row look like none */
   uint64_t corrupted;   /* frames, and groups whose content is impossible */
   uint64_t repeated_frames;
   uint64_t late_frames;   /* of groups given up or overtaken */
   uint64_t other_version; /* frames */
   uint64_t restarts;      /* of the unit's clock */
-  uint64_t silences;      /* of restart_gap_us and more; what was lost in them is not counted */
+  uint64_t silences;      /* of restart_gap_us and more: what was lost in them is not counted */
 } dottrack_counts;
 
 typedef struct dottrack_settings {
@@ -147,11 +163,14 @@ typedef struct dottrack_receiver {
   uint64_t shortest_us, shortest_at_us;
 } dottrack_receiver;
 
+/* `settings` NULL: the default ones. */
 void dottrack_receiver_init(dottrack_receiver* receiver, const dottrack_settings* settings);
 
 /* Takes one frame. `pose` is written only with the verdicts FRESH and STALE of a whole group, and
- * then whole. Should a frame end one group as incomplete and complete another, the verdict is
- * that of the complete one; counts has both. */
+ * then whole: with STALE counts.stale tells that from a late frame. Should a frame end one group as
+ * incomplete and complete another, or be itself at fault, the verdict is that of the latter; counts
+ * has both. A time that goes back counts as the latest one. Bounded: no loop depends on what came.
+ */
 dottrack_verdict dottrack_receiver_push(dottrack_receiver* receiver, const dottrack_frame* frame,
                                         uint64_t arrival_us, dottrack_pose* pose);
 
