@@ -1,6 +1,6 @@
 #pragma once
 // What a rig file says of the unit that it is flashed onto: devices, wiring, priorities. A
-// workstation reads and checks it, and makes no use of it.
+// workstation reads and checks it, and uses [can] alone: to log what the unit would send.
 
 #include <array>
 #include <chrono>
