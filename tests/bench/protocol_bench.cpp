@@ -2,7 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
+#include <cstring>
 
 #include "app/core/protocol/pose_encoder.h"
 #include "app/core/protocol/receiver/dottrack_receiver.h"
@@ -72,7 +72,7 @@ class Vehicle {
       given_.id = frame.id;
       given_.extended = frame.extended;
       given_.length = frame.length;
-      std::copy_n(frame.data.begin(), frame.length, given_.data);
+      std::memcpy(given_.data, frame.data.data(), sizeof given_.data);
       verdict = dottrack_receiver_push(&receiver_, &given_, now_us_, &pose_);
     }
     return verdict == DOTTRACK_FRESH && pose_.valid && pose_.has_covariance && pose_.has_rates;
