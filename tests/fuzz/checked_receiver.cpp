@@ -18,9 +18,20 @@ bool same(const dottrack_counts& a, const dottrack_counts& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
+bool same(const dottrack_frame& a, const dottrack_frame& b) {
+  return a.id == b.id && a.extended == b.extended && a.length == b.length &&
+         std::memcmp(a.data, b.data, sizeof a.data) == 0;
+}
+
 bool is_of_unit(const dottrack_settings& settings, const dottrack_frame& frame) {
   return frame.extended == settings.extended && frame.id >= settings.base_id &&
          frame.id - settings.base_id < DOTTRACK_IDENTIFIERS;
+}
+
+// Not Version, Configuration, Reply and Command, which stand for themselves.
+bool is_grouped(const dottrack_settings& settings, const dottrack_frame& frame) {
+  const std::uint32_t offset = frame.id - settings.base_id;
+  return offset != 14 && offset != 15 && offset != 17 && offset != 18;
 }
 
 }  // namespace
@@ -40,6 +51,8 @@ void CheckedReceiver::push(const dottrack_frame& frame) {
   require(verdict >= DOTTRACK_FOREIGN && verdict <= DOTTRACK_OTHER_VERSION, "a verdict is known");
   ++given_[verdict];
   check_frame(frame, verdict);
+  check_repetition(frame, verdict);
+  last_ = frame;
   check_counts(before, verdict);
   check_totals();
   const bool written = std::memcmp(&pose, &untouched, sizeof pose) != 0;
@@ -63,6 +76,7 @@ void CheckedReceiver::poll() {
 void CheckedReceiver::wait(std::uint64_t duration_us) {
   const std::uint64_t left = std::numeric_limits<std::uint64_t>::max() - now_us_;
   now_us_ += duration_us < left ? duration_us : left;
+  last_.reset();
 }
 
 std::uint64_t CheckedReceiver::given(dottrack_verdict verdict) const {
@@ -78,6 +92,16 @@ void CheckedReceiver::check_frame(const dottrack_frame& frame, dottrack_verdict 
   if (is_sealed(frame, frame.id - receiver_.settings.base_id)) return;
   require(verdict == DOTTRACK_FOREIGN || verdict == DOTTRACK_CORRUPTED,
           "a frame with a wrong checksum or length is corrupted");
+}
+
+// The same once more, at once, is nothing new; unless no silence at all is a gap.
+void CheckedReceiver::check_repetition(const dottrack_frame& frame,
+                                       dottrack_verdict verdict) const {
+  if (!last_ || !same(*last_, frame) || receiver_.settings.restart_gap_us == 0) return;
+  if (!is_grouped(receiver_.settings, frame)) return;
+  require(
+      verdict != DOTTRACK_WAITING && verdict != DOTTRACK_FRESH && verdict != DOTTRACK_INCOMPLETE,
+      "a frame that came a moment ago is not taken again");
 }
 
 void CheckedReceiver::check_counts(const dottrack_counts& before, dottrack_verdict verdict) const {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "app/core/protocol/receiver/dottrack_receiver.h"
 
@@ -25,6 +26,7 @@ class CheckedReceiver {
   static constexpr std::size_t kVerdicts = DOTTRACK_OTHER_VERSION + 1;
 
   void check_frame(const dottrack_frame& frame, dottrack_verdict verdict) const;
+  void check_repetition(const dottrack_frame& frame, dottrack_verdict verdict) const;
   void check_counts(const dottrack_counts& before, dottrack_verdict verdict) const;
   void check_totals() const;
   void check_pose(const dottrack_pose& pose, dottrack_verdict verdict);
@@ -33,6 +35,7 @@ class CheckedReceiver {
   dottrack_receiver receiver_{};
   std::uint64_t now_us_ = 0;
   std::array<std::uint64_t, kVerdicts> given_{};
+  std::optional<dottrack_frame> last_;  // pushed at this very time
   bool had_fresh_ = false;
   std::uint64_t last_capture_us_ = 0;
 };
