@@ -61,7 +61,7 @@ TEST(ReceiverContent, WhatTheLayoutDoesNotAllowIsCorrupted) {
       const std::uint64_t shown = listener.pose().capture_us;
       Group group = full(unit);
       fault.make(group);
-      // A frame's content is only judged with the whole group: 17 dots announce none.
+      // Content is judged with the whole group; 17 dots announce no messages.
       const Frames frames = frames_of(group);
       const std::uint64_t before = listener.verdicts(DOTTRACK_CORRUPTED);
       (void)listener.push(frames, unit.arrival_us());

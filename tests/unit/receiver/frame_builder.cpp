@@ -1,6 +1,5 @@
 #include "tests/unit/receiver/frame_builder.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace dottrack::receiver_test {
@@ -248,7 +247,7 @@ Frames frames_of(const Group& group) {
   if (group.cameras) {
     put_row(frames.emplace_back(blank(kCameras, group.sequence)), 16, 3, group.health, 0, 16);
   }
-  for (unsigned i = 0; i < std::min<unsigned>(group.dots_follow, 16); ++i) {
+  for (unsigned i = 0; i < group.dots_follow && group.dots_follow <= 16; ++i) {
     add_dot(group, i, frames);
   }
   for (dottrack_frame& frame : frames) seal(frame);

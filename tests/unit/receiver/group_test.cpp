@@ -156,8 +156,9 @@ TEST(ReceiverGroup, AGroupThatTakesTooLongIsGivenUp) {
   EXPECT_EQ(listener.poll(now + 100'001), DOTTRACK_INCOMPLETE);
   EXPECT_EQ(listener.poll(now + 100'002), DOTTRACK_WAITING);
   EXPECT_EQ(listener.push(frames[1], now + 100'003), DOTTRACK_STALE);
+  EXPECT_EQ(listener.push(frames[2], now + 900'000), DOTTRACK_STALE);
   EXPECT_EQ(listener.counts().incomplete, 1U);
-  EXPECT_EQ(listener.counts().late_frames, 1U);
+  EXPECT_EQ(listener.counts().late_frames, 2U);
 }
 
 TEST(ReceiverGroup, AFrameThatComesTooLateGivesItsOwnGroupUp) {
@@ -185,6 +186,16 @@ TEST(ReceiverGroup, LostGroupsAreCountedByTheSequence) {
     ASSERT_EQ(listener.take(unit.next()), DOTTRACK_FRESH);
     EXPECT_EQ(listener.counts().lost_groups, lost);
     EXPECT_EQ(listener.counts().silences, 0U);
+  }
+}
+
+TEST(ReceiverGroup, HalfTheSequencesAreBehind) {
+  for (unsigned ahead = 1; ahead <= 255; ++ahead) {
+    Unit unit;
+    Listener listener;
+    ASSERT_EQ(listener.take(unit.next()), DOTTRACK_FRESH);
+    unit.sequence = static_cast<std::uint8_t>(ahead);
+    EXPECT_EQ(listener.take(unit.next()), ahead <= 127 ? DOTTRACK_FRESH : DOTTRACK_STALE) << ahead;
   }
 }
 

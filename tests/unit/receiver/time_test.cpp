@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include "tests/unit/receiver/frame_builder.h"
 #include "tests/unit/receiver/listener.h"
@@ -123,8 +124,31 @@ TEST(ReceiverTime, AnEarlierCaptureIsStale) {
   hear(listener, unit, 10);
   unit.capture_us -= 5 * Unit::kPeriodUs;
   EXPECT_EQ(listener.take(unit.next(), 5 * Unit::kPeriodUs), DOTTRACK_STALE);
-  EXPECT_EQ(listener.counts().stale, 1U);
+  EXPECT_EQ(listener.take(unit.next(), 5 * Unit::kPeriodUs), DOTTRACK_STALE);
+  EXPECT_EQ(listener.counts().stale, 2U);
   EXPECT_EQ(listener.counts().restarts, 0U);
+}
+
+TEST(ReceiverTime, HalfTheClockIsEarlier) {
+  constexpr std::uint64_t kHalf = std::uint64_t{1} << 47U;
+  for (const auto& [step, verdict] :
+       {std::pair{kHalf - 1, DOTTRACK_FRESH}, std::pair{kHalf, DOTTRACK_STALE}}) {
+    Unit unit;
+    Listener listener;
+    ASSERT_EQ(listener.push(unit.next(), 1'000'000), DOTTRACK_FRESH);
+    unit.capture_us += step - Unit::kPeriodUs;
+    EXPECT_EQ(listener.push(unit.next(), 1'033'333), verdict);
+  }
+}
+
+TEST(ReceiverTime, ADelayOfHoursIsNotTakenForNone) {
+  Unit unit;
+  Listener listener;
+  hear(listener, unit, 100);
+  for (std::uint64_t hours = 1; hours <= 5; ++hours) {
+    ASSERT_EQ(listener.take(unit.next(), hours * 3'600'000'000), DOTTRACK_STALE) << hours;
+  }
+  EXPECT_EQ(listener.pose().age_us, std::numeric_limits<std::uint32_t>::max());
 }
 
 TEST(ReceiverTime, ThePollSaysWhenThePoseGetsTooOld) {
@@ -159,6 +183,20 @@ TEST(ReceiverTime, AUnitThatRestartsIsTakenUpAgain) {
     now += Unit::kPeriodUs;
     ASSERT_EQ(listener.push(again.next(), now), DOTTRACK_FRESH);
     EXPECT_FALSE(listener.pose().restarted);
+  }
+}
+
+TEST(ReceiverTime, AUnitThatRestartsIsTakenUpWhateverItsSequence) {
+  for (unsigned sequence = 0; sequence <= 255; ++sequence) {
+    Unit unit;
+    Listener listener;
+    hear(listener, unit, 10);
+    const std::uint64_t last = unit.arrival_us();
+    Unit again;
+    again.sequence = static_cast<std::uint8_t>(sequence);
+    again.capture_us = 1'000'000;
+    ASSERT_EQ(listener.push(again.next(), last + 2 * kRestartGap), DOTTRACK_FRESH) << sequence;
+    EXPECT_TRUE(listener.pose().restarted);
   }
 }
 

@@ -166,11 +166,11 @@ typedef struct dottrack_receiver {
 /* `settings` NULL: the default ones. */
 void dottrack_receiver_init(dottrack_receiver* receiver, const dottrack_settings* settings);
 
-/* Takes one frame. `pose` is written only with the verdicts FRESH and STALE of a whole group, and
- * then whole: with STALE counts.stale tells that from a late frame. Should a frame end one group as
- * incomplete and complete another, or be itself at fault, the verdict is that of the latter; counts
- * has both. A time that goes back counts as the latest one. Bounded: no loop depends on what came.
- */
+/* Takes one frame; the work is bounded, whatever came. `pose` is written only with the verdicts
+ * FRESH and STALE of a whole group, and then whole: with STALE counts.stale tells that from a late
+ * frame. Should a frame end one group as incomplete and complete another, or be itself at fault,
+ * the verdict is that of the latter; counts has both. A time that goes back counts as the latest
+ * one. */
 dottrack_verdict dottrack_receiver_push(dottrack_receiver* receiver, const dottrack_frame* frame,
                                         uint64_t arrival_us, dottrack_pose* pose);
 
