@@ -10,6 +10,9 @@ namespace {
 namespace request = layout::command;
 namespace response = layout::reply;
 
+static_assert(command_id(Addressing{.base_id = 0, .extended = false, .fd = false}) ==
+              request::kMessage.offset);
+
 bool sound(const hal::CanFrame& frame) {
   if (frame.length != request::kMessage.length) return false;
   const std::uint64_t word = to_word(frame.data.data());
@@ -56,8 +59,7 @@ std::string_view to_string(CommandResult result) {
 }
 
 std::optional<CommandReader::Verdict> CommandReader::take(const hal::CanFrame& frame, Time now) {
-  const bool ours = frame.id == addressing_.base_id + request::kMessage.offset &&
-                    frame.extended == addressing_.extended;
+  const bool ours = frame.id == command_id(addressing_) && frame.extended == addressing_.extended;
   if (!ours) return std::nullopt;
   if (!sound(frame)) {
     ++counts_.corrupted;
