@@ -46,11 +46,12 @@ void expect_wrong_use(const std::string& arguments, const std::string& line) {
 }
 
 TEST(Program, AnswersWrongUseWithOneLineAndStatus2) {
-  expect_wrong_use("", "no command; expected one of replay, sim, experiments, camera");
-  expect_wrong_use("fly",
-                   "unknown command \"fly\"; expected one of replay, sim, experiments, camera");
-  expect_wrong_use("--fly",
-                   "unknown command \"--fly\"; expected one of replay, sim, experiments, camera");
+  const std::string commands =
+      "; expected one of replay, sim, experiments, camera, monitor, dbc, command, busload";
+  expect_wrong_use("", "no command" + commands);
+  expect_wrong_use("fly", "unknown command \"fly\"" + commands);
+  expect_wrong_use("--fly", "unknown command \"--fly\"" + commands);
+  expect_wrong_use("busload", "expected either RIG or --table; see dottrack busload --help");
   expect_wrong_use("camera project", "MODEL is required; see dottrack camera project --help");
   expect_wrong_use("replay rig.toml --out o", "--frames is required; see dottrack replay --help");
 }
