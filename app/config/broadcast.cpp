@@ -1,6 +1,5 @@
 #include "app/config/broadcast.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace dottrack::config {
@@ -30,9 +29,7 @@ protocol::BroadcastSettings broadcast_settings(const RigConfig& config) {
 }
 
 std::size_t most_dots(const RigConfig& config) {
-  std::size_t most = config.rig.target.dots.size();
-  for (const TargetEntry& entry : config.targets) most = std::max(most, entry.target.dots.size());
-  return most;
+  return can_use(config).dots;
 }
 
 }  // namespace dottrack::config
