@@ -83,7 +83,6 @@ void Monitor::tell(dottrack_verdict verdict, const Arrival& arrival, const dottr
   }
   if (verdict == DOTTRACK_WAITING || verdict == DOTTRACK_INCOMPLETE) return;
   report.verdict = verdict;
-  report.groups_lost = after.lost_groups - before.lost_groups;
   const bool whole = after.fresh != before.fresh || after.stale != before.stale;
   if (whole) {
     report.pose = &pose;
@@ -95,7 +94,9 @@ void Monitor::tell(dottrack_verdict verdict, const Arrival& arrival, const dottr
   send(report);
 }
 
-void Monitor::send(const Report& report) {
+void Monitor::send(Report report) {
+  report.groups_lost = receiver_.counts.lost_groups - told_lost_;
+  told_lost_ = receiver_.counts.lost_groups;
   for (const auto& writer : writers_) writer->report(report, overview());
 }
 

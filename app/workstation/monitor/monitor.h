@@ -34,13 +34,14 @@ class Monitor {
   void look_at_time(Duration now);
   void tell(dottrack_verdict verdict, const Arrival& arrival, const dottrack_counts& before,
             const dottrack_pose& pose);
-  void send(const Report& report);
+  void send(Report report);
   Overview overview() const;
 
   dottrack_receiver receiver_{};
   std::vector<std::unique_ptr<Writer>> writers_;
   Statistics statistics_;
   std::uint64_t unreadable_lines_ = 0;
+  std::uint64_t told_lost_ = 0;
   bool fresh_ = false;  // groups come
 };
 

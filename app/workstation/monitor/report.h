@@ -18,7 +18,7 @@ struct Report {
   Duration time{};
   const dottrack_pose* pose = nullptr;  // of a whole group; else null
   std::optional<std::uint32_t> id;      // of a frame that has the verdict by itself
-  std::uint64_t groups_lost = 0;        // right before this one, by the sequence
+  std::uint64_t groups_lost = 0;        // since the report before, by the sequence
 };
 
 inline bool is_fresh_pose(const Report& report) {
