@@ -3,75 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <memory>
-#include <optional>
-
 #include "rtos_shim/allocation_trap/allocation_trap.h"
-#include "rtos_shim/virtual_time/virtual_clock.h"
-#include "rtos_shim/virtual_time/virtual_periodic_timer.h"
-#include "tests/support/bus_listener.h"
-#include "tests/support/disc_scene.h"
-#include "tests/unit/cycle/fake_hardware.h"
+#include "tests/unit/cycle/cycle_fixture.h"
 
-namespace dottrack::cycle {
+namespace dottrack::cycle::test {
 namespace {
-
-using dottrack::test::BusListener;
-using dottrack::test::DiscScene;
-using dottrack::test::GreyImage;
-using std::chrono::milliseconds;
-
-constexpr Duration kPeriod = milliseconds(20);
-constexpr std::size_t kCameras = 4;
-
-// Ticks a millisecond each time it is read.
-class Stopwatch final : public rtos::Clock {
- private:
-  Time do_now() const override { return Time(milliseconds(++reads_)); }
-  mutable int reads_ = 0;
-};
-
-class CycleTest : public testing::Test {
- protected:
-  void show(std::uint64_t tick) {
-    for (std::size_t i = 0; i < kCameras; ++i) {
-      shown_[i] = scene_.image_at(i, tick);
-      grabber_.images[i] = shown_[i].view();
-    }
-  }
-
-  const telemetry::CycleRecord& tick() {
-    cycle_.tick(timer_.wait());
-    if (!ring_->try_pop(record_)) throw std::runtime_error("the tick left no record");
-    return record_;
-  }
-
-  // All that went out, as a vehicle hears it.
-  BusListener listen() {
-    BusListener listener;
-    for (std::size_t i = 0; i < can_.sent_size; ++i) listener.hear(can_.sent[i]);
-    return listener;
-  }
-
-  std::optional<dottrack_pose> last_message() {
-    const BusListener listener = listen();
-    return listener.poses().empty() ? std::nullopt : std::optional(listener.poses().back());
-  }
-
-  DiscScene scene_;
-  std::array<GreyImage, kCameras> shown_;
-  test::FakeGrabber grabber_;
-  test::FakeIris iris_;
-  test::FakeCan can_;
-  core::Tracker tracker_{scene_.rig()};
-  rtos::VirtualClock clock_;
-  rtos::VirtualPeriodicTimer timer_{clock_, Time(milliseconds(100)), kPeriod};
-  Stopwatch stopwatch_;
-  std::unique_ptr<telemetry::RecordRing> ring_ = std::make_unique<telemetry::RecordRing>();
-  Cycle cycle_{{grabber_, iris_, can_, tracker_, clock_, stopwatch_, *ring_},
-               settings_for(scene_.rig(), kPeriod)};
-  telemetry::CycleRecord record_;
-};
 
 TEST_F(CycleTest, FramesBecomeAPoseOnTheBus) {
   show(0);
@@ -261,155 +197,6 @@ TEST_F(CycleTest, EveryGroupOfARunIsWholeAndItsSequenceCounts) {
   EXPECT_TRUE(listener.unit().has_version);
 }
 
-class CommandedCycleTest : public CycleTest {
- protected:
-  CommandedCycleTest() {
-    protocol::BroadcastSettings broadcast;
-    broadcast.commands = true;
-    broadcast.targets = 2;
-    commanded_.emplace(CycleParts{.grabber = grabber_,
-                                  .iris = iris_,
-                                  .can = can_,
-                                  .tracker = tracker_,
-                                  .clock = clock_,
-                                  .stopwatch = stopwatch_,
-                                  .records = *ring_,
-                                  .requests = &requests_},
-                       settings_for(scene_.rig(), kPeriod, broadcast));
-  }
-
-  void hear(protocol::CommandCode code, std::uint8_t argument = 0) {
-    can_.heard.push_back(
-        protocol::encode_command({code, argument, kToken}, {}, command_sequence_++));
-  }
-
-  const telemetry::CycleRecord& commanded_tick() {
-    commanded_->tick(timer_.wait());
-    if (!ring_->try_pop(record_)) throw std::runtime_error("the tick left no record");
-    return record_;
-  }
-
-  std::vector<dottrack_reply> replies() const {
-    std::vector<dottrack_reply> replies;
-    const dottrack_settings settings = dottrack_default_settings();
-    for (std::size_t i = 0; i < can_.sent_size; ++i) {
-      dottrack_reply reply{};
-      const dottrack_frame frame = dottrack::test::receiver_frame(can_.sent[i]);
-      if (dottrack_read_reply(&settings, &frame, &reply)) replies.push_back(reply);
-    }
-    return replies;
-  }
-
-  static constexpr std::uint16_t kToken = 0xBEEF;
-  Requests requests_;
-  std::optional<Cycle> commanded_;
-  std::uint8_t command_sequence_ = 7;
-};
-
-TEST_F(CommandedCycleTest, ACommandMakesItLookForTheTargetAnew) {
-  show(0);
-  commanded_tick();
-  hear(protocol::CommandCode::acquire);
-  EXPECT_EQ(commanded_tick().result.reset_count, 1U);
-  EXPECT_EQ(record_.counters.commands.accepted, 1U);
-  show(1);
-  EXPECT_EQ(commanded_tick().result.reset_count, 2U);
-  ASSERT_EQ(replies().size(), 1U);
-  EXPECT_EQ(replies()[0].token, kToken);
-  EXPECT_STREQ(dottrack_result_text(replies()[0].result), "done");
-}
-
-TEST_F(CommandedCycleTest, AnotherTargetIsAskedForOnce) {
-  hear(protocol::CommandCode::set_target, 1);
-  commanded_tick();
-  EXPECT_TRUE(requests_.pending());
-  EXPECT_EQ(requests_.take_target(), 1);
-  EXPECT_EQ(requests_.take_target(), std::nullopt);
-}
-
-TEST_F(CommandedCycleTest, ATargetThatTheRigDoesNotHaveIsRefused) {
-  hear(protocol::CommandCode::set_target, 2);
-  const telemetry::CycleRecord& record = commanded_tick();
-  EXPECT_FALSE(requests_.pending());
-  EXPECT_EQ(record.counters.commands.rejected, 1U);
-  ASSERT_EQ(replies().size(), 1U);
-  EXPECT_STREQ(dottrack_result_text(replies()[0].result), "bad_argument");
-}
-
-TEST_F(CommandedCycleTest, TheVersionIsReportedAtOnce) {
-  commanded_tick();
-  commanded_tick();
-  can_.sent_size = 0;
-  hear(protocol::CommandCode::report_version);
-  commanded_tick();  // is told after its group
-  commanded_tick();
-  const BusListener listener = listen();
-  EXPECT_TRUE(listener.unit().has_version);
-  EXPECT_TRUE(listener.unit().has_configuration);
-}
-
-TEST_F(CommandedCycleTest, AFloodOfCommandsIsHeardALittleATick) {
-  for (int i = 0; i < 100; ++i) hear(protocol::CommandCode::acquire);
-  commanded_tick();
-  EXPECT_EQ(record_.counters.commands.accepted, 1U);
-  EXPECT_GE(can_.heard.size(), 90U);
-  commanded_tick();
-  EXPECT_EQ(record_.counters.commands.accepted, 1U);
-  EXPECT_GT(record_.counters.commands.rejected, 0U) << "too soon";
-}
-
-TEST_F(CycleTest, CommandsAreNotHeardUnlessAskedFor) {
-  can_.heard.push_back(protocol::encode_command({}, {}, 1));
-  tick();
-  EXPECT_EQ(can_.heard.size(), 1U);
-  EXPECT_EQ(record_.counters.commands.accepted, 0U);
-}
-
-class UnitCycleTest : public CycleTest {
- protected:
-  static std::vector<telemetry::FrameSize> sizes(const core::Rig& rig) {
-    std::vector<telemetry::FrameSize> sizes;
-    for (const core::Camera& camera : rig.cameras) {
-      sizes.push_back({camera.width_px, camera.height_px});
-    }
-    return sizes;
-  }
-
-  test::FakeLine lamp_;
-  test::FakeWatchdog watchdog_;
-  telemetry::FrameRing frames_ring_{sizes(scene_.rig()), 2};
-  Cycle unit_{{grabber_, iris_, can_, tracker_, clock_, stopwatch_, *ring_, &frames_ring_, &lamp_,
-               &watchdog_},
-              settings_for(scene_.rig(), kPeriod)};
-};
-
-TEST_F(UnitCycleTest, TheLampBlinksWhileSearchingAndShinesWhileTracking) {
-  for (int n = 0; n < 3; ++n) unit_.tick(timer_.wait());
-  EXPECT_THAT(lamp_.states, testing::ElementsAre(true, false, true));
-  show(0);
-  for (int n = 0; n < 3; ++n) unit_.tick(timer_.wait());
-  EXPECT_THAT(lamp_.states, testing::ElementsAre(true, false, true, true, true, true));
-  unit_.farewell(clock_.now());
-  EXPECT_FALSE(lamp_.states.back());
-}
-
-TEST_F(UnitCycleTest, EveryTickKicksTheWatchdog) {
-  for (int n = 0; n < 4; ++n) unit_.tick(timer_.wait());
-  EXPECT_EQ(watchdog_.kicks, 4);
-}
-
-TEST_F(UnitCycleTest, TheFramesOfATickAreKeptAndAFullRingIsCounted) {
-  show(0);
-  for (int n = 0; n < 3; ++n) unit_.tick(timer_.wait());
-  const telemetry::FrameCopy* copy = frames_ring_.front();
-  ASSERT_NE(copy, nullptr);
-  EXPECT_EQ(copy->delivered, CameraSet::first(kCameras));
-  EXPECT_EQ(copy->frames[2].image.at(11, 7), shown_[2].view().at(11, 7));
-  telemetry::CycleRecord record;
-  while (ring_->try_pop(record)) continue;
-  EXPECT_EQ(record.counters.frames_dropped, 1U);
-}
-
 TEST_F(CycleTest, NoTickTouchesTheHeap) {
   std::uint64_t heap_calls = 0;
   const auto armed_tick = [&] {
@@ -432,4 +219,4 @@ TEST_F(CycleTest, NoTickTouchesTheHeap) {
 }
 
 }  // namespace
-}  // namespace dottrack::cycle
+}  // namespace dottrack::cycle::test
