@@ -23,7 +23,7 @@ import { compareWithPoses, groupsOf, posesOf } from './poses_check.mjs';
 
 const EXTENDED = 0x80000000; // of an identifier in a DBC file
 const NOT_AVAILABLE = 'not available';
-const PRINTED = 1e-11; // relative: monitor prints twelve digits
+const PRINTED = 1e-14; // relative: monitor prints fifteen digits
 const FEWEST_FRAMES = 1000;
 const FEWEST_POSES = 100;
 

@@ -21,10 +21,6 @@ bool fits(const DbcSignal& signal, unsigned bytes) {
   return first + signal.length <= bytes * 8;
 }
 
-std::string quoted(std::string_view name) {
-  return "\"" + std::string(name) + "\"";
-}
-
 }  // namespace
 
 Result<DbcFile> Parser::parse() {

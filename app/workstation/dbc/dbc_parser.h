@@ -12,6 +12,9 @@
 
 namespace dottrack::dbc {
 
+// Between quotes, for complaints.
+std::string quoted(std::string_view text);
+
 // Each read_ function stands at a statement's first word and leaves the cursor behind the
 // statement. False: something is wrong, and the first complaint says what; nothing is read after.
 class Parser {

@@ -45,6 +45,11 @@ bool to_number(std::string_view digits, Number& number) {
 
 }  // namespace
 
+std::string quoted(std::string_view text) {
+  std::string line(1, '"');
+  return line.append(text).append(1, '"');
+}
+
 bool Parser::wrong(std::size_t line, const std::string& what) {
   if (complaint_.empty()) complaint_ = name_ + ":" + std::to_string(line) + ": " + what;
   return false;
@@ -53,14 +58,13 @@ bool Parser::wrong(std::size_t line, const std::string& what) {
 bool Parser::unexpected(std::string_view expected) {
   const std::string seen = token_.kind == Token::Kind::end           ? "the file ends"
                            : token_.kind == Token::Kind::broken_text ? "a text without its end"
-                           : token_.kind == Token::Kind::text
-                               ? "text \"" + shown(token_.view) + "\""
-                               : "\"" + shown(token_.view) + "\"";
+                           : token_.kind == Token::Kind::text ? "text " + quoted(shown(token_.view))
+                                                              : quoted(shown(token_.view));
   return wrong(token_.line, seen + "; expected " + std::string(expected));
 }
 
 bool Parser::expect(std::string_view symbol) {
-  if (!token_.is(symbol)) return unexpected("\"" + std::string(symbol) + "\"");
+  if (!token_.is(symbol)) return unexpected(quoted(symbol));
   advance();
   return true;
 }

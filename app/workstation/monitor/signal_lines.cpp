@@ -22,7 +22,7 @@ std::string text_line(const dbc::DbcMessage& message, const std::vector<DecodedS
     if (!one.text.empty()) {
       fmt::format_to(out, "  {} {}", one.signal->name, one.text);
     } else {
-      fmt::format_to(out, "  {} {:.12g}{}{}", one.signal->name, one.physical,
+      fmt::format_to(out, "  {} {:.15g}{}{}", one.signal->name, one.physical,
                      one.signal->unit.empty() ? "" : " ", one.signal->unit);
     }
   }
@@ -34,7 +34,7 @@ std::string json_line(const dbc::DbcMessage& message, const std::vector<DecodedS
   for (const DecodedSignal& one : decoded) {
     const bool known = one.text != kNotAvailable;
     fmt::format_to(std::back_inserter(line), "{}\"{}\":{}", &one == decoded.data() ? "" : ",",
-                   one.signal->name, known ? fmt::format("{:.12g}", one.physical) : "null");
+                   one.signal->name, known ? fmt::format("{:.15g}", one.physical) : "null");
   }
   return line + "}";
 }
