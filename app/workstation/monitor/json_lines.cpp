@@ -81,7 +81,10 @@ std::string dot_object(const dottrack_dot& dot) {
 std::string dot_list(const dottrack_pose& pose) {
   if (pose.dots == 0) return "null";
   std::string list;
-  for (unsigned i = 0; i < pose.dots; ++i) list += (i == 0 ? "" : ",") + dot_object(pose.dot[i]);
+  for (unsigned i = 0; i < pose.dots; ++i) {
+    list += i == 0 ? "" : ",";
+    list += dot_object(pose.dot[i]);
+  }
   return "[" + list + "]";
 }
 

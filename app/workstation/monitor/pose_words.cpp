@@ -52,7 +52,8 @@ std::string degraded_words(std::uint16_t degraded) {
   std::string words;
   for (unsigned bit = 0; bit < 16; ++bit) {
     if (!has(degraded, bit)) continue;
-    words += (words.empty() ? "" : " ") + std::string(dottrack_degraded_text(bit));
+    words += words.empty() ? "" : " ";
+    words += dottrack_degraded_text(bit);
   }
   return words.empty() ? "-" : words;
 }

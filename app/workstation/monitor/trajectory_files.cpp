@@ -58,7 +58,8 @@ std::string csv_line(const dottrack_pose& pose) {
   append(line, {&pose.false_lock_probability, 1}, pose.false_lock_probability >= 0.0);
   const std::array age{age_s(pose).value_or(kUnknown)};
   append(line, age, true);
-  line += "," + seconds_text(std::chrono::microseconds(pose.arrival_us));
+  line += ',';
+  line += seconds_text(std::chrono::microseconds(pose.arrival_us));
   line += fmt::format(",{},{},{},{},{}\n", count_of(pose.cameras_used), pose.dots_used,
                       pose.reset_count, pose.degraded, pose.sequence);
   return line;
