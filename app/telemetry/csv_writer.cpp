@@ -53,6 +53,17 @@ void write_pose(const TickResult& result, Line& line) {
   }
 }
 
+void write_motion(const TickResult& result, Line& line) {
+  if (result.has_pose) {
+    line << result.false_lock_probability;
+  } else {
+    line.skip(1);
+  }
+  if (!result.motion.known) return line.skip(6);
+  for (int i = 0; i < 3; ++i) line << result.motion.velocity_m_s[i];
+  for (int i = 0; i < 3; ++i) line << result.motion.rates_rad_s[i];
+}
+
 void write_view(const core::DotView& view, Line& line) {
   if (!view.used) return line.skip(3);
   line << view.pixel.x() << view.pixel.y() << view.residual_px;
@@ -123,7 +134,10 @@ std::string header(const std::vector<std::string>& cameras, std::size_t dots) {
     }
   }
   for (const auto& [name, value] : count_columns({})) line << name;
-  line << "chance_matches";
+  for (const std::string_view name : {"chance_matches", "false_lock_probability", "vx_m_s",
+                                      "vy_m_s", "vz_m_s", "wx_rad_s", "wy_rad_s", "wz_rad_s"}) {
+    line << name;
+  }
   line.end();
   return text;
 }
@@ -150,6 +164,7 @@ void CsvWriter::do_write(const CycleRecord& record) {
   }
   for (const auto& [name, value] : count_columns(result.acquisition)) line << value;
   line << result.acquisition.chance_matches;
+  write_motion(result, line);
   line.end();
   file_.write(line_);
 }

@@ -42,6 +42,7 @@ void UnitLog::do_write(const CycleRecord& record) {
   note_can(record.counters);
   note_irises(record.unhealthy_irises);
   note_losses(record.counters);
+  note_commands(record.counters.commands);
 }
 
 void UnitLog::note_state(const core::TickResult& result) {
@@ -115,6 +116,21 @@ void UnitLog::note_losses(const CycleCounters& counters) {
   told_ = counters;
   if (missed > 0) log_(Severity::warning, fmt::format("{} ticks were missed", missed));
   if (dropped > 0) log_(Severity::warning, fmt::format("{} records were dropped", dropped));
+}
+
+// Those carried out come a second apart at most; a flood of refused ones is one line.
+void UnitLog::note_commands(const protocol::CommandCounts& commands) {
+  const std::uint64_t done = commands.accepted - told_commands_.accepted;
+  const std::uint64_t refused = commands.rejected - told_commands_.rejected;
+  const std::uint64_t corrupted = commands.corrupted - told_commands_.corrupted;
+  const bool soon =
+      ticks_of_last_command_ > 0 && ticks_ - ticks_of_last_command_ < kTicksBetweenLosses;
+  if (done + refused + corrupted == 0 || (done == 0 && soon)) return;
+  ticks_of_last_command_ = ticks_;
+  told_commands_ = commands;
+  log_(refused + corrupted > 0 ? Severity::warning : Severity::info,
+       fmt::format("commands over CAN: {} carried out, {} refused, {} corrupted", done, refused,
+                   corrupted));
 }
 
 std::string UnitLog::names_of(CameraSet cameras) const {

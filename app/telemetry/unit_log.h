@@ -35,6 +35,7 @@ class UnitLog final : public RecordWriter {
   void note_can_state(hal::CanState state);
   void note_irises(CameraSet unhealthy);
   void note_losses(const CycleCounters& counters);
+  void note_commands(const protocol::CommandCounts& commands);
   std::string names_of(CameraSet cameras) const;
 
   std::vector<std::string> cameras_;
@@ -51,6 +52,8 @@ class UnitLog final : public RecordWriter {
   CycleCounters counters_;
   std::uint64_t ticks_of_last_loss_ = 0;
   CycleCounters told_;
+  protocol::CommandCounts told_commands_;
+  std::uint64_t ticks_of_last_command_ = 0;
 };
 
 }  // namespace dottrack::telemetry

@@ -86,6 +86,16 @@ TEST_F(CsvFile, CamerasAndAcquisitionAreThere) {
   EXPECT_EQ(row.at("right_overflow"), "1");
   EXPECT_EQ(row.at("pairs_tested"), "1234");
   EXPECT_EQ(row.at("chance_matches"), "0.25");
+  EXPECT_EQ(row.at("false_lock_probability"), "0.125");
+}
+
+TEST_F(CsvFile, HowTheVehicleMovesIsThere) {
+  EXPECT_EQ(row(1).at("vx_m_s"), "0.5");
+  EXPECT_EQ(row(1).at("vy_m_s"), "-0.25");
+  EXPECT_EQ(row(1).at("wz_rad_s"), "1.5");
+  EXPECT_EQ(row(2).at("vx_m_s"), "");
+  EXPECT_EQ(row(2).at("wz_rad_s"), "");
+  EXPECT_EQ(row(2).at("false_lock_probability"), "");
 }
 
 TEST_F(CsvFile, ATickWithoutAPoseHasItsReasonAndEmptyFields) {

@@ -114,5 +114,18 @@ TEST_F(UnitLogTest, ABurstOfLossesIsTwoLinesAndNothingIsForgotten) {
   EXPECT_THAT(told(), ElementsAre("4 1 ticks were missed", "4 100 ticks were missed"));
 }
 
+TEST_F(UnitLogTest, CommandsAreToldAndAFloodOfThemInOneLine) {
+  record_.counters.commands.accepted = 1;
+  tick(3);
+  EXPECT_THAT(told(), ElementsAre("6 commands over CAN: 1 carried out, 0 refused, 0 corrupted"));
+  for (int n = 0; n < 150; ++n) {
+    ++record_.counters.commands.rejected;
+    tick();
+  }
+  EXPECT_THAT(told(), ElementsAre("4 commands over CAN: 0 carried out, 98 refused, 0 corrupted"));
+  tick(100);
+  EXPECT_THAT(told(), ElementsAre("4 commands over CAN: 0 carried out, 52 refused, 0 corrupted"));
+}
+
 }  // namespace
 }  // namespace dottrack::telemetry
