@@ -25,6 +25,7 @@ const EXTENDED = 0x80000000; // of an identifier in a DBC file
 const NOT_AVAILABLE = 'not available';
 const PRINTED = 1e-14; // relative: monitor prints fifteen digits
 const FEWEST_FRAMES = 1000;
+const FEWEST_SIGNALS = 5000;
 const FEWEST_POSES = 100;
 
 class Mismatch extends Error {}
@@ -100,6 +101,7 @@ function compare(messages, lines) {
   const compared = messages.map((message, i) => compareFrame(message, lines[i]));
   const kinds = new Set(messages.map((message) => message.name)).size;
   const signals = compared.reduce((sum, count) => sum + count, 0);
+  expect(signals >= FEWEST_SIGNALS, `${signals} signals; expected at least ${FEWEST_SIGNALS}`);
   return `${messages.length} frames of ${kinds} messages, ${signals} signals`;
 }
 
