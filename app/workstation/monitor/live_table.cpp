@@ -74,10 +74,10 @@ void add_count_rows(std::vector<std::string>& lines, const Overview& overview, D
   const Statistics& s = overview.statistics;
   const dottrack_counts& c = overview.counts;
   lines.push_back(row("unit", unit_words(overview.unit)));
-  lines.push_back(row("rates", fmt::format("{:.1f} groups/s, {:.0f} frames/s; jitter RMS {:.2f} "
-                                           "ms, max {:.2f} ms",
-                                           s.groups_per_s(now), s.frames_per_s(now),
-                                           1e3 * s.rms_jitter_s(), 1e3 * s.max_jitter_s())));
+  lines.push_back(row("traffic", fmt::format("{:.1f} groups/s, {:.0f} frames/s; jitter RMS {:.2f} "
+                                             "ms, max {:.2f} ms",
+                                             s.groups_per_s(now), s.frames_per_s(now),
+                                             1e3 * s.rms_jitter_s(), 1e3 * s.max_jitter_s())));
   lines.push_back(row("groups", fmt::format("fresh {}, stale {}, repeated {}, incomplete {}, lost "
                                             "{} ({:.2f} %)",
                                             c.fresh, c.stale, c.repeated_groups, c.incomplete,
@@ -109,6 +109,7 @@ void LiveTable::do_report(const Report& report, const Overview& overview) {
   const bool silence = report.verdict == DOTTRACK_STALE && !report.pose && !report.id;
   content_.verdict = silence ? "stale: no fresh group within the age limit"
                              : verdict_words(report.verdict, report.pose);
+  if (silence) content_.has_pose = false;  // an old pose is no pose
   if (report.pose != nullptr) {
     content_.has_pose = true;
     content_.pose = *report.pose;
@@ -118,6 +119,7 @@ void LiveTable::do_report(const Report& report, const Overview& overview) {
 }
 
 void LiveTable::do_pause(Duration now, const Overview& overview) {
+  now_ = now;
   if (drawn_lines_ == 0 || now - drawn_at_ >= kDrawEvery) draw(now, overview);
 }
 
@@ -137,6 +139,7 @@ void LiveTable::draw(Duration now, const Overview& overview) {
 }
 
 Result<void> LiveTable::do_finish(const Overview& overview) {
+  draw(now_, overview);
   fmt::print(out_, "{}", statistics_text(overview));
   std::fflush(out_);
   return {};

@@ -36,6 +36,7 @@ class LiveTable final : public Writer {
   TableContent content_;
   std::size_t drawn_lines_ = 0;
   Duration drawn_at_{};
+  Duration now_{};
 };
 
 }  // namespace dottrack::monitor

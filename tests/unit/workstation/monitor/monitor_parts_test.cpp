@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdio>
 #include <deque>
 #include <numbers>
 #include <optional>
@@ -161,6 +162,39 @@ TEST(LiveTableTest, HasEveryFactWithinANarrowTerminal) {
                            "velocity", "attitude", "jitter", "lost", "corrupted", "unit"}) {
     EXPECT_THAT(all, HasSubstr(word));
   }
+}
+
+// What a table shows last, drawn into a file instead of a terminal.
+std::string last_drawn(const std::vector<Report>& reports) {
+  dottrack_receiver receiver;
+  dottrack_receiver_init(&receiver, nullptr);
+  const Statistics statistics;
+  const Overview overview{statistics, receiver.counts, receiver.unit, 0};
+  std::FILE* const file = std::tmpfile();
+  LiveTable table(file, "title");
+  for (const Report& report : reports) table.report(report, overview);
+  EXPECT_TRUE(table.finish(overview));
+  std::string text(static_cast<std::size_t>(std::ftell(file)), ' ');
+  std::rewind(file);
+  EXPECT_EQ(std::fread(text.data(), 1, text.size(), file), text.size());
+  std::fclose(file);
+  return text.substr(text.rfind("title"));
+}
+
+TEST(LiveTableTest, AnOldPoseIsNotShownAsNew) {
+  dottrack_pose pose{};
+  pose.valid = true;
+  pose.orientation_wxyz[0] = 1.0;
+  pose.position_m[1] = 12.3456;
+  Report fresh;
+  fresh.pose = &pose;
+  Report silence;
+  silence.verdict = DOTTRACK_STALE;
+  silence.time = std::chrono::milliseconds(1);
+  EXPECT_THAT(last_drawn({fresh}), HasSubstr("12.3456"));
+  const std::string silent = last_drawn({fresh, silence});
+  EXPECT_THAT(silent, HasSubstr("stale: no fresh group within the age limit"));
+  EXPECT_THAT(silent, testing::Not(HasSubstr("12.3456")));
 }
 
 TEST(CommandExchange, GivesTheReplyAndWhatTheUnitTellsOfItself) {
