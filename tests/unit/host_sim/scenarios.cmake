@@ -6,4 +6,4 @@ dottrack_test(host_sim_scene_renderer_test
   USES dottrack::host_sim_scenarios LABELS threads)
 dottrack_test(host_sim_hal_test
   SOURCES frame_recorder_test.cpp sim_can_bus_test.cpp sim_frame_grabber_test.cpp sim_iris_test.cpp
-  USES dottrack::host_sim_hal dottrack::drivers_recorded dottrack::test_support)
+  USES dottrack::host_sim_hal dottrack::core_protocol dottrack::drivers_recorded dottrack::test_support)

@@ -3,7 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/core/protocol/pose_decoder.h"
+#include "drivers/candump/candump_line.h"
+#include "tests/support/bus_listener.h"
 #include "tests/support/disc_scene.h"
 #include "tests/unit/workstation/replay_run.h"
 
@@ -102,27 +103,24 @@ TEST_F(Replay, TheCanLogHoldsEveryPose) {
   ASSERT_EQ(replay("run").status, 0);
   const std::vector<std::string> log = lines_of(out("run") / "can.log");
   const std::vector<std::string> tum = lines_of(out("run") / "poses.tum");
-  ASSERT_EQ(log.size(), protocol::kFramesPerPose * kTicks);
-  protocol::PoseDecoder decoder;
-  std::size_t messages = 0;
+  dottrack::test::BusListener listener;
   for (const std::string& line : log) {
-    const std::size_t hash = line.find('#');
-    protocol::Payload data{};
-    for (std::size_t i = 0; i < data.size(); ++i) {
-      data[i] =
-          static_cast<std::uint8_t>(std::stoul(line.substr(hash + 1 + 2 * i, 2), nullptr, 16));
-    }
-    const auto id = static_cast<std::uint32_t>(std::stoul(line.substr(hash - 3, 3), nullptr, 16));
-    const auto message = decoder.push(id, data);
-    if (!message) continue;
-    const std::vector<std::string> fields = split(tum.at(messages++), ' ');
-    EXPECT_TRUE(message->pose_valid);
-    EXPECT_NEAR(to_seconds(message->mid_exposure.time_since_epoch()), std::stod(fields[0]), 1e-6);
-    EXPECT_NEAR(message->position_m.x(), std::stod(fields[1]), 0.00006);
-    EXPECT_NEAR(message->position_m.y(), std::stod(fields[2]), 0.00006);
-    EXPECT_NEAR(message->orientation.z(), std::stod(fields[6]), 0.00002);
+    const auto logged = drivers::parse_candump_line(line);
+    ASSERT_TRUE(logged) << line;
+    listener.hear(logged->frame);
   }
-  EXPECT_EQ(messages, kTicks);
+  ASSERT_EQ(listener.poses().size(), kTicks);
+  ASSERT_EQ(tum.size(), kTicks);
+  EXPECT_EQ(listener.counts().corrupted + listener.counts().incomplete, 0U);
+  for (std::size_t n = 0; n < kTicks; ++n) {
+    const dottrack_pose& pose = listener.poses()[n];
+    const std::vector<std::string> fields = split(tum[n], ' ');
+    EXPECT_TRUE(pose.valid);
+    EXPECT_NEAR(1e-6 * static_cast<double>(pose.capture_us), std::stod(fields[0]), 1.1e-6);
+    EXPECT_NEAR(pose.position_m[0], std::stod(fields[1]), 0.00006);
+    EXPECT_NEAR(pose.position_m[1], std::stod(fields[2]), 0.00006);
+    EXPECT_NEAR(pose.orientation_wxyz[3], std::stod(fields[6]), 0.00003);
+  }
 }
 
 TEST_F(Replay, EveryCameraHasAPictureOfTheFirstLockAndOfTheLastTick) {
