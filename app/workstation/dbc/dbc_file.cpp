@@ -8,7 +8,7 @@ namespace dottrack::dbc {
 namespace {
 
 bool bit_of(std::span<const std::uint8_t> payload, unsigned bit) {
-  return ((payload[bit / 8] >> (bit % 8)) & 1U) != 0;
+  return ((unsigned{payload[bit / 8]} >> (bit % 8)) & 1U) != 0;
 }
 
 // Least significant bit first.

@@ -43,7 +43,7 @@ class Object {
 std::string camera_list(std::uint16_t cameras) {
   std::string list;
   for (unsigned i = 0; i < DOTTRACK_MAX_CAMERAS; ++i) {
-    if (((cameras >> i) & 1U) == 0) continue;
+    if (((unsigned{cameras} >> i) & 1U) == 0) continue;
     list += fmt::format("{}{}", list.empty() ? "" : ",", i + 1);
   }
   return "[" + list + "]";
@@ -52,7 +52,7 @@ std::string camera_list(std::uint16_t cameras) {
 std::string degraded_list(std::uint16_t degraded) {
   std::string list;
   for (unsigned bit = 0; bit < 16; ++bit) {
-    if (((degraded >> bit) & 1U) == 0) continue;
+    if (((unsigned{degraded} >> bit) & 1U) == 0) continue;
     list += fmt::format("{}\"{}\"", list.empty() ? "" : ",", dottrack_degraded_text(bit));
   }
   return "[" + list + "]";

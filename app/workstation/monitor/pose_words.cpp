@@ -13,7 +13,7 @@ namespace {
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 bool has(std::uint16_t bits, unsigned bit) {
-  return ((bits >> bit) & 1U) != 0;
+  return ((unsigned{bits} >> bit) & 1U) != 0;
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ FdBits fd_bits_on_line(const LineFrame& frame) {
     ++(place < head ? count.slow : count.fast);
   });
   const std::size_t checksum = 4 + (frame.data.size() <= 16 ? 17U : 21U);
-  for (std::size_t i = 0; i < checksum; ++i) count.fast += i % 4 == 0 ? 2 : 1;
+  for (std::size_t i = 0; i < checksum; ++i) count.fast += i % 4 == 0 ? 2U : 1U;
   count.slow += 1 + 1 + 1 + 7 + 3;
   return count;
 }
