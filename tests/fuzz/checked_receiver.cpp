@@ -148,9 +148,10 @@ void CheckedReceiver::check_pose(const dottrack_pose& pose, dottrack_verdict ver
   if (verdict == DOTTRACK_FRESH) check_order(pose);
 }
 
-// Fresh means young, and newer than all before.
+// Fresh means young, and a pose newer than all poses before.
 void CheckedReceiver::check_order(const dottrack_pose& pose) {
   require(pose.age_us <= receiver_.settings.age_limit_us, "a fresh pose is young");
+  if (!pose.valid) return;
   if (had_fresh_) {
     const std::uint64_t later = (pose.capture_us - last_capture_us_) % kClockPeriod_us;
     require(later != 0 && later < kClockPeriod_us / 2, "a fresh pose is newer than those before");

@@ -40,8 +40,6 @@ Finding verdicts(const Board& board) {
                       counts.repeated_groups, counts.late_frames)};
 }
 
-// A picture that is late in the emulator comes after a message that said there was none: such a
-// pose is younger than the limit, and stale.
 Finding ages(const std::vector<ReceivedPose>& poses) {
   std::vector<double> ages_ms;
   std::size_t fresh = 0;
@@ -50,10 +48,9 @@ Finding ages(const std::vector<ReceivedPose>& poses) {
     fresh += pose.fresh ? 1 : 0;
   }
   const double oldest = ages_ms.empty() ? 0.0 : *std::max_element(ages_ms.begin(), ages_ms.end());
-  return {"age of poses on arrival", fresh > 0 && oldest <= PoseLog::kAgeLimit_us / 1e3,
-          fmt::format("{:.0f} ms in the middle, {:.0f} ms at most; {} of {} overtaken by a message "
-                      "without pictures",
-                      median(ages_ms), oldest, poses.size() - fresh, poses.size())};
+  return {"age of poses on arrival", fresh > 0 && fresh == poses.size(),
+          fmt::format("{:.0f} ms in the middle, {:.0f} ms at most; {} of {} fresh", median(ages_ms),
+                      oldest, fresh, poses.size())};
 }
 
 // Along the diagonal; the frames are those of the world.

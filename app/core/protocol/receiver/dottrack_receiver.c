@@ -428,34 +428,44 @@ static bool nothing_fresh_for(const dottrack_receiver* receiver, uint64_t durati
   return !receiver->has_fresh || receiver->now_us - receiver->fresh_at_us >= duration_us;
 }
 
+/* A tick without pictures is stamped with its own instant, which pictures that come late may precede:
+ * poses are newer than all poses before, not than all groups. */
 static dottrack_verdict judge_group(dottrack_receiver* receiver, dottrack_pose* pose) {
   dottrack_counts* counts = &receiver->counts;
-  const uint64_t capture = get(receiver->data, layout_of(receiver)->capture);
+  const layout* l = layout_of(receiver);
+  const uint64_t capture = get(receiver->data, l->capture);
+  const bool posed = flag(receiver->data, l->pose_valid);
   const int64_t ahead = ahead_of(capture, receiver->capture_us);
-  bool restarted = false;
-  bool overtaken = false;
+  const int64_t ahead_of_pose = ahead_of(capture, receiver->pose_capture_us);
+  const bool follows_pose = posed && receiver->has_pose_capture;
+  const bool earlier = receiver->has_capture && ahead < 0;
+  bool restarted = earlier && nothing_fresh_for(receiver, receiver->settings.restart_gap_us);
   if (!content_possible(receiver)) {
     ++counts->corrupted;
     return DOTTRACK_CORRUPTED;
   }
-  if (receiver->has_capture && ahead == 0) {
+  if ((receiver->has_capture && ahead == 0) || (follows_pose && !restarted && ahead_of_pose == 0)) {
     ++counts->repeated_groups;
     return DOTTRACK_REPEATED;
   }
-  if (receiver->has_capture && ahead < 0) {
-    restarted = nothing_fresh_for(receiver, receiver->settings.restart_gap_us);
-    overtaken = !restarted;
-  }
   const uint32_t age = judge_age(receiver, capture, &restarted);
-  if (restarted) ++counts->restarts;
+  const bool overtaken = follows_pose && !restarted && ahead_of_pose < 0;
+  if (restarted) {
+    ++counts->restarts;
+    receiver->has_pose_capture = false;
+  }
   fill(receiver, pose);
   pose->restarted = restarted;
   pose->capture_us = capture;
   pose->arrival_us = receiver->now_us;
   pose->age_us = age;
-  if (!overtaken) {
+  if (!earlier || restarted) {
     receiver->has_capture = true;
     receiver->capture_us = capture;
+  }
+  if (posed && !overtaken) {
+    receiver->has_pose_capture = true;
+    receiver->pose_capture_us = capture;
   }
   if (overtaken || age > receiver->settings.age_limit_us) {
     ++counts->stale;

@@ -46,14 +46,15 @@ typedef struct dottrack_frame {
 typedef enum dottrack_verdict {
   DOTTRACK_FOREIGN = 0, /* not a frame of this unit: nothing changed */
   DOTTRACK_WAITING,     /* a sound frame that completes no group */
-  DOTTRACK_FRESH,       /* completes a group that is sound, newer than all before, young enough */
-  DOTTRACK_STALE,       /* completes a group older than the age limit, without an age, or older than
-                           the one before; or a frame that comes after its group was given up or
-                           overtaken; or, from poll, there is no fresh group within the age limit */
-  DOTTRACK_INCOMPLETE,  /* the group before was given up: frames of it never came */
-  DOTTRACK_CORRUPTED,   /* checksum or length is wrong, or a group says what the layout does not
-                           allow; numbers of reasons that a newer unit may have are allowed */
-  DOTTRACK_REPEATED,    /* a frame or a group (by its capture time) that has been here before */
+  DOTTRACK_FRESH,      /* completes a group that is sound and young enough, its pose, if it has one,
+                          newer than all before */
+  DOTTRACK_STALE,      /* completes a group older than the age limit, without an age, or with a pose
+                          older than the one before; or a frame that comes after its group was given up
+                          or      overtaken; or, from poll, there is no fresh group within the age limit */
+  DOTTRACK_INCOMPLETE, /* the group before was given up: frames of it never came */
+  DOTTRACK_CORRUPTED,  /* checksum or length is wrong, or a group says what the layout does not
+                          allow; numbers of reasons that a newer unit may have are allowed */
+  DOTTRACK_REPEATED,   /* a frame or a group (by its capture time) that has been here before */
   DOTTRACK_OTHER_VERSION /* another layout of the messages than this receiver's */
 } dottrack_verdict;
 
@@ -157,8 +158,8 @@ typedef struct dottrack_receiver {
   uint64_t opened_at_us, closed_at_us, in_order_at_us;
   uint8_t data[8 * DOTTRACK_IDENTIFIERS + 64 + 8]; /* 8 bytes an identifier, FdPose, 8 spare */
   /* the newest group, the newest fresh one, the clocks' offset */
-  bool has_capture, has_fresh, has_shortest, clock_in_doubt;
-  uint64_t capture_us, fresh_at_us;
+  bool has_capture, has_pose_capture, has_fresh, has_shortest, clock_in_doubt;
+  uint64_t capture_us, pose_capture_us, fresh_at_us;
   uint32_t fresh_age_us;
   uint64_t shortest_us, shortest_at_us;
 } dottrack_receiver;
