@@ -80,14 +80,8 @@ std::unique_ptr<SocketCanBus> open_bus(const rtos::Clock& clock, bool fd) {
   return std::move(*opened);
 }
 
-// Why nothing of this can be tested here; empty if it can.
 std::string missing() {
-  const int descriptor = ::socket(AF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW);
-  if (descriptor < 0) return "no CAN in this kernel";
-  ::close(descriptor);
-  const VcanLink trial(kInterface);
-  if (trial.error() == 0) return {};
-  return std::string("cannot make a virtual CAN interface: ") + std::strerror(trial.error());
+  return why_no_vcan(kInterface);
 }
 
 class VcanBench final : public CanBench {

@@ -106,4 +106,14 @@ class VcanLink {
   int error_ = 0;
 };
 
+// Why no virtual interface of that name can be had here; empty if one can.
+inline std::string why_no_vcan(const std::string& name) {
+  const int descriptor = ::socket(AF_CAN, SOCK_RAW | SOCK_CLOEXEC, 1 /* CAN_RAW */);
+  if (descriptor < 0) return "no CAN in this kernel";
+  ::close(descriptor);
+  const VcanLink trial(name);
+  if (trial.error() == 0) return {};
+  return std::string("cannot make a virtual CAN interface: ") + std::strerror(trial.error());
+}
+
 }  // namespace dottrack::test
