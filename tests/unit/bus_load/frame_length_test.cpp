@@ -62,7 +62,8 @@ class Frames {
     for (unsigned i = extended ? 29 : 11; i-- > 0;) frame.id = frame.id << 1U | bit();
     begin();
     for (std::uint8_t& byte : frame.data) {
-      for (unsigned i = 0; i < 8; ++i) byte = static_cast<std::uint8_t>(unsigned{byte} << 1U | bit());
+      for (unsigned i = 0; i < 8; ++i)
+        byte = static_cast<std::uint8_t>(unsigned{byte} << 1U | bit());
     }
     return frame;
   }

@@ -428,8 +428,8 @@ static bool nothing_fresh_for(const dottrack_receiver* receiver, uint64_t durati
   return !receiver->has_fresh || receiver->now_us - receiver->fresh_at_us >= duration_us;
 }
 
-/* A tick without pictures is stamped with its own instant, which pictures that come late may precede:
- * poses are newer than all poses before, not than all groups. */
+/* A tick without pictures is stamped with its own instant, which pictures that come late may
+ * precede: poses are newer than all poses before, not than all groups. */
 static dottrack_verdict judge_group(dottrack_receiver* receiver, dottrack_pose* pose) {
   dottrack_counts* counts = &receiver->counts;
   const layout* l = layout_of(receiver);

@@ -50,7 +50,8 @@ typedef enum dottrack_verdict {
                           newer than all before */
   DOTTRACK_STALE,      /* completes a group older than the age limit, without an age, or with a pose
                           older than the one before; or a frame that comes after its group was given up
-                          or      overtaken; or, from poll, there is no fresh group within the age limit */
+                          or      overtaken; or, from poll, there is no fresh group within the age limit
+                        */
   DOTTRACK_INCOMPLETE, /* the group before was given up: frames of it never came */
   DOTTRACK_CORRUPTED,  /* checksum or length is wrong, or a group says what the layout does not
                           allow; numbers of reasons that a newer unit may have are allowed */
