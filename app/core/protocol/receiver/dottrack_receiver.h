@@ -46,12 +46,10 @@ typedef struct dottrack_frame {
 typedef enum dottrack_verdict {
   DOTTRACK_FOREIGN = 0, /* not a frame of this unit: nothing changed */
   DOTTRACK_WAITING,     /* a sound frame that completes no group */
-  DOTTRACK_FRESH,      /* completes a group that is sound and young enough, its pose, if it has one,
-                          newer than all before */
+  DOTTRACK_FRESH,      /* completes a sound group, young enough, its pose newer than those before */
   DOTTRACK_STALE,      /* completes a group older than the age limit, without an age, or with a pose
-                          older than the one before; or a frame that comes after its group was given up
-                          or      overtaken; or, from poll, there is no fresh group within the age limit
-                        */
+                          older than the one before; or a frame of a group given up or overtaken;
+                          or, from poll, there is no fresh group within the age limit */
   DOTTRACK_INCOMPLETE, /* the group before was given up: frames of it never came */
   DOTTRACK_CORRUPTED,  /* checksum or length is wrong, or a group says what the layout does not
                           allow; numbers of reasons that a newer unit may have are allowed */
