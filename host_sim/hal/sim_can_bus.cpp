@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/core/protocol/receiver_frame.h"
 #include "host_sim/world/random.h"
 
 namespace dottrack::host_sim {
@@ -98,11 +99,7 @@ void SimCanBus::go_off(Time from, Time until) {
 
 void SimCanBus::on_the_line(const Waiting& waiting) {
   ++counts_.sent;
-  dottrack_frame frame{};
-  frame.id = waiting.frame.id;
-  frame.extended = waiting.frame.extended;
-  frame.length = waiting.frame.length;
-  std::copy(waiting.frame.data.begin(), waiting.frame.data.end(), frame.data);
+  const dottrack_frame frame = protocol::to_receiver(waiting.frame);
   const auto arrival =
       std::chrono::floor<std::chrono::microseconds>(waiting.done.time_since_epoch());
   dottrack_pose pose{};

@@ -90,19 +90,14 @@ TEST_P(MessagesOnBoard, ACommandIsHeardAndAnswered) {
   settings.extended = GetParam().extended;
   const dottrack_frame command =
       dottrack_command_frame(&settings, DOTTRACK_COMMAND_ACQUIRE, 0, 0x1234, 9);
-  hal::CanFrame frame;
-  frame.id = command.id;
-  frame.extended = command.extended;
-  frame.length = command.length;
-  std::copy_n(command.data, command.length, frame.data.begin());
-  ASSERT_EQ(vehicle_->send(frame, soon()), hal::SendResult::accepted);
+  ASSERT_EQ(vehicle_->send(protocol::from_receiver(command), soon()), hal::SendResult::accepted);
   const auto heard = broadcaster_->listen(clock_.now(), soon());
   ASSERT_TRUE(heard);
   EXPECT_EQ(heard->code, protocol::CommandCode::acquire);
   broadcaster_->reply(true, soon());
   const std::vector<hal::CanFrame> answers = heard_by_vehicle();
   ASSERT_EQ(answers.size(), 1U);
-  const dottrack_frame answer = receiver_frame(answers[0]);
+  const dottrack_frame answer = protocol::to_receiver(answers[0]);
   dottrack_reply reply{};
   ASSERT_TRUE(dottrack_read_reply(&settings, &answer, &reply));
   EXPECT_EQ(reply.token, 0x1234);

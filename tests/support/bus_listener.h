@@ -1,24 +1,15 @@
 #pragma once
 // A vehicle's ear: CAN frames in, what its receiver made of them out.
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "app/core/protocol/addressing.h"
 #include "app/core/protocol/receiver/dottrack_receiver.h"
+#include "app/core/protocol/receiver_frame.h"
 #include "hal/base/can_frame.h"
 
 namespace dottrack::test {
-
-inline dottrack_frame receiver_frame(const hal::CanFrame& frame) {
-  dottrack_frame given{};
-  given.id = frame.id;
-  given.extended = frame.extended;
-  given.length = frame.length;
-  std::copy(frame.data.begin(), frame.data.end(), given.data);
-  return given;
-}
 
 class BusListener {
  public:
@@ -31,7 +22,7 @@ class BusListener {
 
   // Frames come a tenth of a millisecond apart.
   dottrack_verdict hear(const hal::CanFrame& frame) {
-    const dottrack_frame given = receiver_frame(frame);
+    const dottrack_frame given = protocol::to_receiver(frame);
     now_us_ += 100;
     dottrack_pose pose{};
     const dottrack_verdict verdict = dottrack_receiver_push(&receiver_, &given, now_us_, &pose);

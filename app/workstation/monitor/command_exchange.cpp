@@ -1,8 +1,7 @@
 #include "app/workstation/monitor/command_exchange.h"
+#include "app/core/protocol/receiver_frame.h"
 
 #include <thread>
-
-#include "app/workstation/monitor/receiver_frame.h"
 
 namespace dottrack::monitor {
 namespace {
@@ -21,7 +20,7 @@ class Exchange {
   bool send(const CommandRequest& request) {
     const dottrack_frame made = dottrack_command_frame(
         &settings_, request.command, request.argument, request.token, request.sequence);
-    return bus_.send(from_receiver(made), clock_.now() + kSendPatience) ==
+    return bus_.send(protocol::from_receiver(made), clock_.now() + kSendPatience) ==
            hal::SendResult::accepted;
   }
 
@@ -31,7 +30,7 @@ class Exchange {
     while (clock_.now() < end && !complete(request, answer)) {
       hal::CanFrame frame;
       if (bus_.receive(frame)) {
-        take(to_receiver(frame), request.token, answer);
+        take(protocol::to_receiver(frame), request.token, answer);
       } else {
         std::this_thread::sleep_for(kPause);
       }

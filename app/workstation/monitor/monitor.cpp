@@ -1,8 +1,7 @@
 #include "app/workstation/monitor/monitor.h"
+#include "app/core/protocol/receiver_frame.h"
 
 #include <utility>
-
-#include "app/workstation/monitor/receiver_frame.h"
 
 namespace dottrack::monitor {
 namespace {
@@ -61,7 +60,7 @@ void Monitor::look_at_time(Duration now) {
 }
 
 void Monitor::take(const Arrival& arrival) {
-  const dottrack_frame frame = to_receiver(arrival.frame);
+  const dottrack_frame frame = protocol::to_receiver(arrival.frame);
   const dottrack_counts before = receiver_.counts;
   dottrack_pose pose{};
   const dottrack_verdict verdict =

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/core/protocol/receiver_frame.h"
 #include "drivers/candump/candump_line.h"
 
 namespace dottrack::board {
@@ -12,15 +13,6 @@ dottrack_settings patient_settings() {
   settings.age_limit_us = PoseLog::kAgeLimit_us;
   settings.group_timeout_us = PoseLog::kGroupTimeout_us;
   return settings;
-}
-
-dottrack_frame to_c(const hal::CanFrame& frame) {
-  dottrack_frame c{};
-  c.id = frame.id;
-  c.extended = frame.extended;
-  c.length = frame.length;
-  std::copy(frame.data.begin(), frame.data.end(), c.data);
-  return c;
 }
 
 std::uint64_t groups(const dottrack_counts& counts) {
@@ -37,7 +29,7 @@ PoseLog::PoseLog() {
 void PoseLog::take(const LoggedLine& line) {
   const auto logged = drivers::parse_candump_line(line.text);
   if (!logged) return;
-  const dottrack_frame frame = to_c(logged->frame);
+  const dottrack_frame frame = protocol::to_receiver(logged->frame);
   const auto arrival = std::chrono::floor<std::chrono::microseconds>(line.received);
   const auto arrival_us = static_cast<std::uint64_t>(arrival.time_since_epoch().count());
   const std::lock_guard lock(mutex_);

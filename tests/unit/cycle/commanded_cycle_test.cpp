@@ -45,7 +45,7 @@ class CommandedCycleTest : public CycleTest {
     const dottrack_settings settings = dottrack_default_settings();
     for (std::size_t i = 0; i < can_.sent_size; ++i) {
       dottrack_reply reply{};
-      const dottrack_frame frame = dottrack::test::receiver_frame(can_.sent[i]);
+      const dottrack_frame frame = protocol::to_receiver(can_.sent[i]);
       if (dottrack_read_reply(&settings, &frame, &reply)) replies.push_back(reply);
     }
     return replies;

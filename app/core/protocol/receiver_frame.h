@@ -1,5 +1,5 @@
 #pragma once
-// Frames as the receiver for vehicles has them.
+// Frames as the receiver for vehicles has them, and back.
 
 #include <algorithm>
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include "app/core/protocol/receiver/dottrack_receiver.h"
 #include "hal/base/can_frame.h"
 
-namespace dottrack::monitor {
+namespace dottrack::protocol {
 
 inline dottrack_frame to_receiver(const hal::CanFrame& frame) {
   dottrack_frame converted{};
@@ -31,4 +31,4 @@ inline hal::CanFrame from_receiver(const dottrack_frame& frame) {
   return converted;
 }
 
-}  // namespace dottrack::monitor
+}  // namespace dottrack::protocol
