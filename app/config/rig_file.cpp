@@ -23,6 +23,8 @@ namespace {
 
 constexpr NumberRule kFrameRate{0.0, 1000.0, "a number of hertz above 0 and up to 1000"};
 constexpr NumberRule kResidual{0.0, 10.0, "a number of metres above 0 and up to 10"};
+constexpr NumberRule kFalseLock{0.0, 0.5, "a probability above 0 and up to 0.5"};
+constexpr IntegerRule kWatchEvery{0, 1'000'000, "a whole number from 0 (never) to 1000000"};
 constexpr IntegerRule kLostAfter{1, 1'000'000, "a whole number from 1 to 1000000"};
 
 // A camera's name is also the name of a folder and of files.
@@ -169,12 +171,18 @@ class RigReader {
   }
 
   void read_tracking(const toml::table& table) {
-    TableReader reader(complaint_, table, "[tracking]", {"max_rms_residual_m", "lost_after_ticks"});
+    TableReader reader(complaint_, table, "[tracking]",
+                       {"max_rms_residual_m", "lost_after_ticks", "max_false_lock_probability",
+                        "watch_every_ticks"});
     auto& limits = config_.rig.limits;
     limits.max_rms_residual_m =
         reader.number("max_rms_residual_m", limits.max_rms_residual_m, kResidual);
     limits.lost_after_ticks =
         reader.integer("lost_after_ticks", limits.lost_after_ticks, kLostAfter);
+    limits.max_false_lock_probability =
+        reader.number("max_false_lock_probability", limits.max_false_lock_probability, kFalseLock);
+    limits.watch_every_ticks =
+        reader.integer("watch_every_ticks", limits.watch_every_ticks, kWatchEvery);
   }
 
   std::filesystem::path beside_rig(const std::string& name) const {

@@ -38,6 +38,8 @@ std::string_view to_string(Reason reason) {
       return "ambiguous";
     case Reason::stopped:
       return "stopped";
+    case Reason::held_back:
+      return "held_back";
   }
   return "unknown";
 }

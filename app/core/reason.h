@@ -21,9 +21,10 @@ enum class Reason : std::uint8_t {
   too_few_dots = 9,          // fewer than three dots triangulated (3.2.3)
   degenerate_geometry = 10,  // the dots seen do not determine a pose
   step_too_large = 11,       // a dot moved further than max_step_m (3.2.3)
-  work_budget = 12,          // acquisition's bound of work was reached
+  work_budget = 12,          // acquisition's bound of work in a tick was reached: it goes on
   ambiguous = 13,            // as good a match by chance, or another labelling as good
   stopped = 14,              // the unit was told to stop: the last message it sends
+  held_back = 15,            // found, but it may be chance: further ticks are to confirm it
 };
 
 // One word each: "tracking"; "too_few_regions".

@@ -41,6 +41,11 @@ struct Target {
 struct TrackingLimits {
   double max_rms_residual_m = 0.02;
   int lost_after_ticks = 5;
+  // A lock more probably false than this is held back until further ticks confirm it.
+  double max_false_lock_probability = 1e-6;
+  // While tracking, whole images are searched for a better explanation every so many ticks; 0:
+  // never.
+  int watch_every_ticks = 1;
 };
 
 struct Rig {

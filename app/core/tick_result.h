@@ -50,11 +50,15 @@ struct DotState {
 // What one camera's image came to in this tick.
 struct CameraTick {
   bool delivered = false;
-  bool used = false;             // contributes at least one view to the pose
-  std::uint32_t regions = 0;     // accepted by identify
-  std::uint32_t components = 0;  // before the gates
-  bool overflow = false;         // a capacity was reached: some regions were left out
-  bool stale = false;            // delivered the picture of the tick before again: left out
+  bool used = false;                 // contributes at least one view to the pose
+  std::uint32_t regions = 0;         // accepted by identify
+  std::uint32_t components = 0;      // before the gates
+  std::uint32_t rejected_size = 0;   // of the components: not a dot's size
+  std::uint32_t rejected_shape = 0;  // not a dot's shape
+  std::uint32_t rejected_sight = 0;  // of the regions: at the border, or no dot could be seen so
+  std::uint32_t sightings = 0;       // of the regions: taken into matching
+  bool overflow = false;             // a capacity was reached: some regions were left out
+  bool stale = false;                // delivered the picture of the tick before again: left out
 };
 
 // How many candidates each gate of acquisition left over (paper 3.1.2 to 3.1.5).
@@ -68,9 +72,19 @@ struct AcquisitionCounts {
   std::uint32_t rejected_reprojection = 0;
   std::uint32_t pairs_accepted = 0;
   std::uint32_t finalists = 0;
-  std::uint32_t overflow = 0;  // pairs or finalists beyond capacity
-  std::uint64_t work_units = 0;
-  double chance_matches = 0.0;  // as good as the one selected, that clutter would offer by chance
+  std::uint32_t overflow = 0;     // pairs or finalists beyond capacity
+  std::uint64_t work_units = 0;   // of this tick
+  std::uint32_t ticks = 0;        // that this search has taken so far
+  std::uint8_t min_views = 0;     // cameras that every finalist of the selection was asked to have
+  std::uint8_t dots_matched = 0;  // of the best selection; 0: there was none
+  // Of the best selection, in the light of all ticks so far; 1: there was none.
+  double false_lock_probability = 1.0;
+};
+
+// Why a lock was exchanged for another without having been lost.
+enum class Relock : std::uint8_t {
+  none = 0,
+  better_elsewhere = 1,  // acquisition found a better explanation of the images at another place
 };
 
 struct TickResult {
@@ -82,6 +96,7 @@ struct TickResult {
   Pose pose;
   Motion motion;
   double false_lock_probability = 1.0;  // that the lock is a wrong one, at most; with a pose only
+  Relock relock = Relock::none;         // of this tick
   std::uint32_t reset_count = 0;        // acquisitions so far: a new value is a new lock
   std::uint32_t ticks_lost = 0;         // consecutive ticks without a pose
   CameraSet cameras_used;

@@ -138,7 +138,7 @@ void Tracker::Memory::confirm(const Pose& acquired) {
   ++result.reset_count;
   follows = false;
   // Of as many chance matches as are expected, at most so many exist (Markov).
-  false_lock_probability = std::min(1.0, result.acquisition.chance_matches);
+  false_lock_probability = result.acquisition.false_lock_probability;
   accept(followed);
 }
 

@@ -134,7 +134,7 @@ std::string header(const std::vector<std::string>& cameras, std::size_t dots) {
     }
   }
   for (const auto& [name, value] : count_columns({})) line << name;
-  for (const std::string_view name : {"chance_matches", "false_lock_probability", "vx_m_s",
+  for (const std::string_view name : {"candidate_false_lock_probability", "false_lock_probability", "vx_m_s",
                                       "vy_m_s", "vz_m_s", "wx_rad_s", "wy_rad_s", "wz_rad_s"}) {
     line << name;
   }
@@ -163,7 +163,7 @@ void CsvWriter::do_write(const CycleRecord& record) {
          << camera.overflow << camera.stale;
   }
   for (const auto& [name, value] : count_columns(result.acquisition)) line << value;
-  line << result.acquisition.chance_matches;
+  line << result.acquisition.false_lock_probability;
   write_motion(result, line);
   line.end();
   file_.write(line_);

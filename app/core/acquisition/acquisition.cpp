@@ -169,8 +169,10 @@ bool Acquisition::has_rival_labelling(const Selection& selection, WorkBudget& bu
 core::Reason Acquisition::judge(const Selection& selection, WorkBudget& budget,
                                 AcquisitionResult& result) {
   const Finalists& finalists = memory_->merger.finalists();
-  result.counts.chance_matches = chance_matches(shape_, as_span(finalists), selection);
-  if (result.counts.chance_matches > kMaxChanceMatches || has_rival_labelling(selection, budget)) {
+  result.counts.false_lock_probability =
+      std::min(1.0, chance_matches(shape_, as_span(finalists), selection));
+  if (result.counts.false_lock_probability > kMaxChanceMatches ||
+      has_rival_labelling(selection, budget)) {
     return core::Reason::ambiguous;
   }
   StaticVector<estimation::LocatedDot, core::kMaxDots> dots;

@@ -18,7 +18,9 @@ struct DotCandidate {
   double diameter_m = 0.0;
 };
 
-// candidate[k] is the finalist chosen for dot k of the target.
+inline constexpr std::uint16_t kNoCandidate = 0xFFFF;  // of a dot that is left out
+
+// assignment[k] is the finalist chosen for dot k of the target.
 using Assignment = std::array<std::uint16_t, core::kMaxDots>;
 
 // Sum over all pairs of dots of the squared difference of their distances, found and ideal, plus
@@ -35,30 +37,37 @@ bool passes_variance_test(const TargetShape& shape, std::span<const DotCandidate
 bool passes_upright_test(const TargetShape& shape, std::span<const DotCandidate> candidates,
                          const Assignment& assignment);
 
-// The largest score that a set within the RMS residual limit can have: n^2 r^2 for the distances
-// (their squared differences sum to at most n times the squared residuals), and half a diameter
-// for each dot's size.
-double largest_score(const TargetShape& shape, double max_rms_residual_m);
+// The largest score that a set of `dots` dots within the RMS residual limit can have: dots^2 r^2
+// for the distances (their squared differences sum to at most dots times the squared residuals),
+// and half a diameter for each dot's size, of the largest ones.
+double largest_score(const TargetShape& shape, double max_rms_residual_m, std::size_t dots);
 
 enum class SelectStatus : std::uint8_t {
   found,
   none,              // no assignment within the largest score
   only_upside_down,  // some, but every one hangs upside down
-  work_budget,       // the bound of work was reached before the search was complete
+  work_budget,       // the budget ran out: the search goes on with the next one
 };
 
 struct Selection {
-  Assignment assignment{};
-  double score_m2 = 0.0;
+  Assignment assignment{};  // kNoCandidate for the target's dots that are left out, and beyond them
+  double score_m2 = 0.0;    // over the dots that are matched
+  std::uint8_t dots = 0;    // that are matched
 };
 
-// Exact: among all assignments of distinct candidates that pass the variance and upright tests and
-// whose score is at most max_score, finds the one of least score, of equal ones the
-// lexicographically first - what the paper's search over all subsets and permutations finds.
+struct SelectLimits {
+  double max_score_m2 = 0.0;
+  std::size_t dots = 0;                  // how many of the target's dots to match, exactly
+  const Assignment* excluded = nullptr;  // passed over: what is found is the best of the others
+};
+
+// Exact: among all assignments of distinct candidates to `dots` of the target's dots that pass the
+// variance and upright tests (taken over the matched dots) and whose score is at most max_score,
+// finds the one of least score, of equal ones the lexicographically first - what the paper's search
+// over all subsets and permutations finds.
 //
-// Branch and bound: the anchor dot is tried on every candidate; the others' candidates are those at
-// the right distance from it; partial scores that exceed the best are cut. The bound starts small
-// and grows, since a good match, if there is one, is found in the smallest.
+// Branch and bound. The bound starts small and grows, since a good match, if there is one, is found
+// in the smallest. The search can stop anywhere and go on later: it keeps a stack of its own.
 class Selector {
  public:
   Selector();
@@ -68,10 +77,11 @@ class Selector {
 
   static std::size_t footprint_bytes();
 
-  // With `excluded`, that one assignment is passed over: what is found is the best of the others.
-  SelectStatus select(const TargetShape& shape, std::span<const DotCandidate> candidates,
-                      double max_score_m2, WorkBudget& budget, Selection& selection,
-                      const Assignment* excluded = nullptr);
+  // Begins a search. What the arguments refer to must stay as it is until the search has ended.
+  void start(const TargetShape& shape, std::span<const DotCandidate> candidates,
+             const SelectLimits& limits);
+  // Goes on until the search has ended or the budget has run out (work_budget).
+  SelectStatus advance(WorkBudget& budget, Selection& selection);
 
  private:
   struct Search;

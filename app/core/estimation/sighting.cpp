@@ -30,6 +30,9 @@ bool make_sighting(const core::Camera& camera, const geometry::Optics& optics,
   sighting.pixels_per_rad *= middle_m;
   sighting.line.sigma_rad = kCentroidSigma_px / scale.mean_px();
   sighting.pixel = region.centroid_px;
+  sighting.semi_major_px = region.semi_major_px;
+  sighting.semi_minor_px = region.semi_minor_px;
+  sighting.angle_rad = region.angle_rad;
   sighting.box_min_px = {region.x_min - 0.5, region.y_min - 0.5};
   sighting.box_max_px = {region.x_max + 0.5, region.y_max + 0.5};
   sighting.angular_diameter_rad = 2.0 * region.semi_major_px / scale.mean_px();

@@ -22,6 +22,9 @@ struct Sighting {
   RangeWindow window;                 // where a dot of the target would look this size
   double angular_diameter_rad = 0.0;  // of the semi-major axis, both halves
   std::uint16_t region = 0;           // index among the camera's regions
+  double semi_major_px = 0.0;         // the region's ellipse
+  double semi_minor_px = 0.0;
+  double angle_rad = 0.0;  // of the major axis from +x towards +y
   // d(pixel)/d(point) times the point's range: the same all along the line of sight.
   geometry::ProjectionJacobian pixels_per_rad = geometry::ProjectionJacobian::Zero();
 

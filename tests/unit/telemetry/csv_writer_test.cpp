@@ -85,7 +85,7 @@ TEST_F(CsvFile, CamerasAndAcquisitionAreThere) {
   EXPECT_EQ(row.at("right_delivered"), "0");
   EXPECT_EQ(row.at("right_overflow"), "1");
   EXPECT_EQ(row.at("pairs_tested"), "1234");
-  EXPECT_EQ(row.at("chance_matches"), "0.25");
+  EXPECT_EQ(row.at("candidate_false_lock_probability"), "0.25");
   EXPECT_EQ(row.at("false_lock_probability"), "0.125");
 }
 

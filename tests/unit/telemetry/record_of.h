@@ -29,7 +29,7 @@ inline CycleRecord record_with_pose(std::uint64_t tick) {
   result.cameras[0] = {true, true, 7, 9, false};
   result.cameras[1] = {false, false, 0, 0, true};
   result.acquisition.pairs_tested = 1234;
-  result.acquisition.chance_matches = 0.25;
+  result.acquisition.false_lock_probability = 0.25;
   result.false_lock_probability = 0.125;
   result.motion = {true, {0.5, -0.25, 0.0}, {0.0, 0.0, 1.5}};
   return record;

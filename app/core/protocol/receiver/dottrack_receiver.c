@@ -725,7 +725,8 @@ const char* dottrack_reason_text(uint8_t reason) {
                                       "step_too_large",
                                       "work_budget",
                                       "ambiguous",
-                                      "stopped"};
+                                      "stopped",
+                                      "held_back"};
   return WORD_OF(words, reason);
 }
 

@@ -1,0 +1,27 @@
+#pragma once
+// How a flat disc looks in an image (paper section 3.3).
+
+#include <Eigen/Core>
+
+#include "app/core/geometry/camera_model.h"
+
+namespace dottrack::geometry {
+
+struct ImageEllipse {
+  double semi_major_px = 0.0;
+  double semi_minor_px = 0.0;
+  double angle_rad = 0.0;  // of the major axis from +x towards +y, in (-pi/2, pi/2]
+};
+
+// The ellipse that a disc around `centre_m` (world) with this unit normal shows as, to first order
+// in radius over range: the circle carried through the model's partial derivatives. Not ok where
+// the model sees nothing there. The disc's back shows the same ellipse; see faces().
+OpticsStatus project_disc(const CameraModel& model, const Eigen::Vector3d& centre_m,
+                          const Eigen::Vector3d& normal, double radius_m,
+                          ImageEllipse& ellipse) noexcept;
+
+// Cosine of the angle between the normal and the direction to the camera: positive in front.
+double facing(const CameraModel& model, const Eigen::Vector3d& centre_m,
+              const Eigen::Vector3d& normal) noexcept;
+
+}  // namespace dottrack::geometry
