@@ -40,8 +40,9 @@ void select(benchmark::State& state) {
   acquisition::SelectStatus status{};
   for (auto _ : state) {
     acquisition::WorkBudget budget(kUnlimited);
-    status = selector.select(shape, candidates, acquisition::largest_score(shape, kResidual_m),
-                             budget, selection);
+    selector.start(shape, candidates,
+                   {acquisition::largest_score(shape, kResidual_m, shape.dots), shape.dots});
+    status = selector.advance(budget, selection);
     benchmark::DoNotOptimize(selection);
   }
   if (status != acquisition::SelectStatus::found) state.SkipWithError("the target was not found");

@@ -138,9 +138,10 @@ core::Reason Acquisition::select(int min_views, WorkBudget& budget, Selection& s
     candidates.push_back({finalists[i].position_m, finalists[i].diameter_m});
     origin.push_back(static_cast<std::uint16_t>(i));
   }
-  const SelectStatus status = memory_->selector.select(
-      shape_, as_span(candidates), largest_score(shape_, rig_->limits.max_rms_residual_m), budget,
-      selection);
+  memory_->selector.start(
+      shape_, as_span(candidates),
+      {largest_score(shape_, rig_->limits.max_rms_residual_m, shape_.dots), shape_.dots});
+  const SelectStatus status = memory_->selector.advance(budget, selection);
   if (status != SelectStatus::found) return reason_of(status);
   for (std::size_t k = 0; k < shape_.dots; ++k) {
     selection.assignment[k] = origin[selection.assignment[k]];
@@ -153,7 +154,8 @@ bool Acquisition::has_rival_labelling(const Selection& selection, WorkBudget& bu
   const Finalists& finalists = memory_->merger.finalists();
   auto& candidates = memory_->candidates;
   candidates.clear();
-  Assignment given{};
+  Assignment given;
+  given.fill(kNoCandidate);
   for (std::size_t k = 0; k < shape_.dots; ++k) {
     const Finalist& finalist = finalists[selection.assignment[k]];
     candidates.push_back({finalist.position_m, finalist.diameter_m});
@@ -161,9 +163,9 @@ bool Acquisition::has_rival_labelling(const Selection& selection, WorkBudget& bu
   }
   const double fit_m = fit_of(shape_, as_span(finalists), selection);
   Selection rival;
-  return memory_->selector.select(shape_, as_span(candidates),
-                                  selection.score_m2 + kRivalMargin * fit_m * fit_m, budget, rival,
-                                  &given) == SelectStatus::found;
+  memory_->selector.start(shape_, as_span(candidates),
+                          {selection.score_m2 + kRivalMargin * fit_m * fit_m, shape_.dots, &given});
+  return memory_->selector.advance(budget, rival) == SelectStatus::found;
 }
 
 core::Reason Acquisition::judge(const Selection& selection, WorkBudget& budget,

@@ -53,8 +53,8 @@ bool passes_upright_test(const TargetShape& shape, std::span<const DotCandidate>
          (motion.rotation * Eigen::Vector3d::UnitZ()).z() > 0.0;
 }
 
-double largest_score(const TargetShape& shape, double max_rms_residual_m) {
-  const auto n = static_cast<double>(shape.dots);
+double largest_score(const TargetShape& shape, double max_rms_residual_m, std::size_t dots) {
+  const auto n = static_cast<double>(dots);
   double score = squared(n * max_rms_residual_m);
   for (std::size_t i = 0; i < shape.dots; ++i) score += squared(0.5 * shape.diameter_m[i]);
   return score;

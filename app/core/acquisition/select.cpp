@@ -41,6 +41,7 @@ struct Selector::Search {
   std::array<std::uint8_t, core::kMaxDots> order{};        // dots, fewest options first
   std::array<double, core::kMaxDots + 1> least_rest_m2{};  // least cost of dots order[k..]
   Assignment assignment{};
+  double max_score_m2 = 0.0;
   double bound_m2 = 0.0;
   bool found = false;
   bool saw_upside_down = false;
@@ -175,6 +176,7 @@ void Selector::Search::judge() {
   found = true;
   best.assignment = assignment;
   best.score_m2 = score;
+  best.dots = static_cast<std::uint8_t>(shape->dots);
   bound_m2 = score;
 }
 
@@ -185,20 +187,24 @@ std::size_t Selector::footprint_bytes() {
   return sizeof(Search);
 }
 
-SelectStatus Selector::select(const TargetShape& shape, std::span<const DotCandidate> candidates,
-                              double max_score_m2, WorkBudget& budget, Selection& selection,
-                              const Assignment* excluded) {
+void Selector::start(const TargetShape& shape, std::span<const DotCandidate> candidates,
+                     const SelectLimits& limits) {
   Search& search = *search_;
   search.shape = &shape;
   search.candidates = candidates.first(std::min(candidates.size(), core::kMaxFinalists));
-  search.budget = &budget;
-  search.excluded = excluded;
-  search.assignment = {};
+  search.excluded = limits.excluded;
+  search.max_score_m2 = limits.max_score_m2;
+  search.assignment.fill(kNoCandidate);
   search.found = false;
   search.saw_upside_down = false;
-  if (candidates.size() < shape.dots) return SelectStatus::none;
+}
+
+SelectStatus Selector::advance(WorkBudget& budget, Selection& selection) {
+  Search& search = *search_;
+  search.budget = &budget;
+  if (search.candidates.size() < search.shape->dots) return SelectStatus::none;
   for (const double step : kBoundSteps) {
-    if (!search.run(step * max_score_m2)) return SelectStatus::work_budget;
+    if (!search.run(step * search.max_score_m2)) return SelectStatus::work_budget;
     if (!search.found) continue;
     selection = search.best;
     return SelectStatus::found;

@@ -16,6 +16,15 @@ using Eigen::Vector3d;
 
 constexpr std::uint64_t kPlenty = 1'000'000'000;
 
+// The whole target at once.
+SelectStatus select(Selector& selector, const TargetShape& shape,
+                    std::span<const DotCandidate> candidates, double max_score_m2,
+                    WorkBudget& budget, Selection& selection,
+                    const Assignment* excluded = nullptr) {
+  selector.start(shape, candidates, {max_score_m2, shape.dots, excluded});
+  return selector.advance(budget, selection);
+}
+
 class Scene {
  public:
   explicit Scene(unsigned seed) : random_(seed) {}
@@ -70,7 +79,7 @@ int compare(const TargetShape& shape, std::span<const DotCandidate> candidates, 
   static Selector selector;
   WorkBudget budget(kPlenty);
   Selection fast;
-  const SelectStatus status = selector.select(shape, candidates, max_score, budget, fast);
+  const SelectStatus status = select(selector, shape, candidates, max_score, budget, fast);
   const auto slow = test::brute_force(shape, candidates, max_score);
   EXPECT_EQ(status == SelectStatus::found, slow.has_value());
   if (status != SelectStatus::found || !slow) return 0;
@@ -89,7 +98,8 @@ TEST_P(SelectAgainstBruteForce, OnScenesWithTheTarget) {
   for (int trial = 0; trial < 60; ++trial) {
     const core::Target target = scene.target(n, trial % 2 == 0);
     const TargetShape shape = make_target_shape(target);
-    found += compare(shape, scene.scene(target, clutter, 0.01), largest_score(shape, 0.02));
+    found +=
+        compare(shape, scene.scene(target, clutter, 0.01), largest_score(shape, 0.02, shape.dots));
   }
   EXPECT_GE(found, 50);
 }
@@ -103,7 +113,7 @@ TEST_P(SelectAgainstBruteForce, OnScenesWithoutTheTarget) {
     const core::Target target = scene.target(n, trial % 2 == 0);
     const TargetShape shape = make_target_shape(target);
     const auto clutter = scene.scene(scene.target(3, true), n == 3 ? 20 : 9, 0.0);
-    const int hit = compare(shape, clutter, largest_score(shape, 0.03));
+    const int hit = compare(shape, clutter, largest_score(shape, 0.03, shape.dots));
     found += hit;
     none += 1 - hit;
   }
@@ -137,7 +147,8 @@ TEST(Select, FindsEveryTargetSizeInClutter) {
     const auto candidates = scene.scene(target, 300, 0.002);
     WorkBudget budget(kPlenty);
     Selection selection;
-    ASSERT_EQ(selector.select(shape, candidates, largest_score(shape, 0.01), budget, selection),
+    ASSERT_EQ(select(selector, shape, candidates, largest_score(shape, 0.01, shape.dots), budget,
+                     selection),
               SelectStatus::found)
         << n << " dots";
     EXPECT_EQ(selection.score_m2, match_score(shape, candidates, selection.assignment));
@@ -158,7 +169,7 @@ TEST(Select, AnUprightTargetNeverHangsUpsideDown) {
   Selector selector;
   WorkBudget budget(kPlenty);
   Selection selection;
-  ASSERT_EQ(selector.select(shape, candidates, 0.01, budget, selection), SelectStatus::found);
+  ASSERT_EQ(select(selector, shape, candidates, 0.01, budget, selection), SelectStatus::found);
   EXPECT_EQ(selection.assignment[0], 1);
   EXPECT_EQ(selection.assignment[1], 2);
   EXPECT_EQ(selection.assignment[2], 0);
@@ -176,7 +187,7 @@ TEST(Select, SaysWhenTheOnlyMatchIsUpsideDown) {
   Selector selector;
   WorkBudget budget(kPlenty);
   Selection selection;
-  EXPECT_EQ(selector.select(shape, candidates, 0.001, budget, selection),
+  EXPECT_EQ(select(selector, shape, candidates, 0.001, budget, selection),
             SelectStatus::only_upside_down);
 }
 
@@ -191,9 +202,9 @@ TEST(Select, RefusesASetOfTwiceTheTargetsVariance) {
   Selector selector;
   WorkBudget budget(kPlenty);
   Selection selection;
-  EXPECT_EQ(selector.select(shape, candidates, 1.0, budget, selection), SelectStatus::none);
+  EXPECT_EQ(select(selector, shape, candidates, 1.0, budget, selection), SelectStatus::none);
   for (DotCandidate& c : candidates) c.position_m *= 1.38 / 1.45;
-  EXPECT_EQ(selector.select(shape, candidates, 1.0, budget, selection), SelectStatus::found);
+  EXPECT_EQ(select(selector, shape, candidates, 1.0, budget, selection), SelectStatus::found);
 }
 
 TEST(Select, StopsAtItsBudgetAndSaysSo) {
@@ -204,7 +215,8 @@ TEST(Select, StopsAtItsBudgetAndSaysSo) {
   Selector selector;
   WorkBudget budget(2000);
   Selection selection;
-  EXPECT_EQ(selector.select(shape, candidates, largest_score(shape, 0.05), budget, selection),
+  EXPECT_EQ(select(selector, shape, candidates, largest_score(shape, 0.05, shape.dots), budget,
+                   selection),
             SelectStatus::work_budget);
   EXPECT_TRUE(budget.exhausted());
 }
@@ -216,7 +228,7 @@ TEST(Select, NeedsAsManyCandidatesAsDots) {
   Selector selector;
   WorkBudget budget(kPlenty);
   Selection selection;
-  EXPECT_EQ(selector.select(make_target_shape(target), three, 1.0, budget, selection),
+  EXPECT_EQ(select(selector, make_target_shape(target), three, 1.0, budget, selection),
             SelectStatus::none);
 }
 
@@ -236,7 +248,7 @@ TEST(LargestScore, AdmitsEverySetWithinTheResidualLimit) {
     Assignment identity{};
     for (std::size_t i = 0; i < shape.dots; ++i) identity[i] = static_cast<std::uint16_t>(i);
     const double rms = std::sqrt(sum2 / static_cast<double>(shape.dots));
-    EXPECT_LE(match_score(shape, candidates, identity), largest_score(shape, rms));
+    EXPECT_LE(match_score(shape, candidates, identity), largest_score(shape, rms, shape.dots));
   }
 }
 
