@@ -104,6 +104,10 @@ struct TickResult {
   std::array<DotState, kMaxDots> dots{};
   std::array<CameraTick, kMaxCameras> cameras{};
   AcquisitionCounts acquisition;
+  // The pose of acquisition's best selection in this tick, even if it is held back: the one that
+  // `acquisition.false_lock_probability` speaks of.
+  bool has_candidate = false;
+  Pose candidate;
 };
 
 }  // namespace dottrack::core
