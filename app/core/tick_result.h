@@ -43,6 +43,7 @@ struct DotState {
   // World: as triangulated; where the pose puts it if a single camera saw it.
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   double position_sigma_m = 0.0;  // root of the covariance's trace
+  double diameter_m = 0.0;        // as measured
   CameraSet cameras;              // that saw it
   std::array<DotView, kMaxCameras> views{};
 };

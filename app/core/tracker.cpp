@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "app/core/acquisition/acquisition.h"
+#include "app/core/acquisition/evidence.h"
 #include "app/core/estimation/motion.h"
 #include "app/core/geometry/optics.h"
-#include "app/core/image/band.h"
 #include "app/core/image/identify.h"
+#include "app/core/searcher.h"
 #include "app/core/stale_images.h"
 #include "app/core/tracking/follow.h"
 
@@ -35,6 +35,37 @@ Time mean_capture_time(std::span<const CameraFrame> frames) {
   return n == 0 ? first : first + sum / n;
 }
 
+// A better explanation elsewhere must show in so many searches one after another, each time leaving
+// the present lock less probable than this, before it takes its place: twins do not take turns.
+constexpr int kBetterSearches = 2;
+constexpr double kDoubtOfBetter = 1e-4;
+
+// What tracking saw of the dots, as witnesses of its pose.
+acquisition::Witnesses witnesses_of(const tracking::FollowResult& followed) {
+  acquisition::Witnesses witnesses;
+  for (std::size_t dot = 0; dot < followed.dots.size(); ++dot) {
+    const DotState& state = followed.dots[dot];
+    if (!state.located) continue;
+    const double variance = state.position_sigma_m * state.position_sigma_m / 3.0;
+    witnesses.push_back({.dot = dot,
+                         .position_m = state.position_m,
+                         .covariance_m2 = variance * Eigen::Matrix3d::Identity(),
+                         .diameter_m = state.diameter_m,
+                         .views = state.cameras.size()});
+  }
+  return witnesses;
+}
+
+// Both poses put every dot where the other one does, to within a dot's size.
+bool same_place(const Target& target, const Pose& a, const Pose& b) {
+  const double reach_m = largest_dot_diameter_m(target);
+  return std::all_of(target.dots.begin(), target.dots.end(), [&](const TargetDot& dot) {
+    const Eigen::Vector3d in_a = a.orientation * dot.position_m + a.position_m;
+    const Eigen::Vector3d in_b = b.orientation * dot.position_m + b.position_m;
+    return (in_a - in_b).squaredNorm() < reach_m * reach_m;
+  });
+}
+
 // The sign of a quaternion means nothing; from tick to tick it stays the same.
 void keep_sign(const Eigen::Quaterniond& previous, Eigen::Quaterniond& orientation) {
   if (previous.dot(orientation) < 0.0) orientation.coeffs() *= -1.0;
@@ -44,42 +75,55 @@ void keep_sign(const Eigen::Quaterniond& previous, Eigen::Quaterniond& orientati
 
 struct Tracker::Memory {
   explicit Memory(const Rig& r)
-      : rig(r), acquisition(rig, optics), follower(rig, optics, identifier) {
-    for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-      const Camera& camera = rig.cameras[i];
-      optics[i] = geometry::Optics(camera.model, camera.width_px, camera.height_px);
-      gates[i] = acquisition::acquisition_gate(camera, optics[i], rig.target);
-    }
+      : rig(r),
+        searcher(rig, optics_of(rig, optics), identifier),
+        follower(rig, optics, identifier),
+        gathered(rig.target, rig.limits) {
     for (std::size_t i = 0; i < kMaxCameras; ++i) considered_of[i] = &considered[i];
   }
 
+  static AllOptics& optics_of(const Rig& rig, AllOptics& optics) {
+    for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+      const Camera& camera = rig.cameras[i];
+      optics[i] = geometry::Optics(camera.model, camera.width_px, camera.height_px);
+    }
+    return optics;
+  }
+
   void take_frames(const Frames& given);
-  void identify();
-  void acquire();
-  void confirm(const Pose& pose);
+  Reason acquire();
+  Reason judge_candidate(Reason doubt);
   void follow();
+  void watch(const tracking::FollowResult& followed);
+  bool is_better_elsewhere();
+  void lock(const tracking::FollowResult& followed, double probability_of_false);
   void accept(const tracking::FollowResult& followed);
   void refuse(Reason reason);
 
   Rig rig;
   AllOptics optics;
   image::Identifier identifier;
-  acquisition::Acquisition acquisition;
+  Searcher searcher;
   tracking::Follower follower;
-  std::array<image::RegionGate, kMaxCameras> gates{};
-  std::array<image::Regions, kMaxCameras> candidates;  // of the whole images
+  acquisition::GatheredEvidence gathered;
   std::array<image::Regions, kMaxCameras> considered;  // in the dots' windows
   std::array<image::Regions*, kMaxCameras> considered_of{};
   Frames frames{};
   StaleImages stale_images;
   CameraSet delivered;
   bool started = false;
-  bool acquired_last = true;  // the last tick looked at whole images
+  bool searched_last = true;  // the last tick was decided by whole images
   State state = State::acquiring;
   Pose pose;             // the last one found
   Time pose_time{};      // when it held
   bool follows = false;  // it is of the tick before and of the same lock
   double false_lock_probability = 1.0;
+
+  // The lock as it was in the images that the watch looks through.
+  bool watching = false;
+  Pose watched_pose;
+  acquisition::Witnesses watched_witnesses;
+  int better_searches = 0;
   TickResult result;
 };
 
@@ -99,61 +143,92 @@ void Tracker::Memory::take_frames(const Frames& given) {
   result.capture_time = mean_capture_time(frames);
 }
 
-// 3.1.2
-void Tracker::Memory::identify() {
-  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-    candidates[i].clear();
-    if (!frames[i].delivered) continue;
-    const image::IdentifyCounts counts = identifier.identify(
-        frames[i].image, image::band_of(rig.cameras[i]), gates[i], candidates[i]);
-    CameraTick& camera = result.cameras[i];
-    camera.components = counts.components;
-    camera.regions = counts.accepted;
-    camera.overflow = counts.overflow_runs + counts.overflow_regions > 0;
-  }
+// 3.1. The reason why there is no lock; none when there is one.
+Reason Tracker::Memory::acquire() {
+  searched_last = true;
+  watching = false;
+  const bool ended = searcher.look(frames, result.capture_time);
+  searcher.report(result);
+  if (!ended) return Reason::work_budget;
+  const Reason reason = searcher.acquisition().result().reason;
+  return reason == Reason::none || reason == Reason::ambiguous ? judge_candidate(reason) : reason;
 }
 
-// 3.1.3 to 3.1.5
-void Tracker::Memory::acquire() {
-  acquired_last = true;
-  identify();
-  std::array<const image::Regions*, kMaxCameras> regions{};
-  for (std::size_t i = 0; i < rig.cameras.size(); ++i) regions[i] = &candidates[i];
-  const acquisition::AcquisitionResult acquired = acquisition.acquire(regions);
-  result.acquisition = acquired.counts;
-  if (acquired.reason == Reason::none) {
-    confirm(acquired.pose);
-  } else {
-    refuse(acquired.reason);
+// A single run of tracking on the present images rejects the candidate if it rejects them (3.1.5).
+// Then the evidence of all ticks so far decides whether it is a lock.
+Reason Tracker::Memory::judge_candidate(Reason doubt) {
+  const acquisition::CandidateLock& candidate = searcher.acquisition().result().candidate;
+  result.has_candidate = true;
+  result.candidate = candidate.pose;
+  const tracking::FollowResult& followed = follower.follow(frames, candidate.pose, considered_of);
+  if (followed.reason != Reason::none) return Reason::not_confirmed;
+  const double p = gathered.add(candidate, searcher.captured());
+  result.acquisition.false_lock_probability = p;
+  if (p > rig.limits.max_false_lock_probability) {
+    return doubt == Reason::none ? Reason::held_back : doubt;
   }
+  lock(followed, p);
+  return Reason::none;
 }
 
-// A single run of tracking on the same images rejects the acquisition if it rejects them (3.1.5).
-void Tracker::Memory::confirm(const Pose& acquired) {
-  const tracking::FollowResult& followed = follower.follow(frames, acquired, considered_of);
-  if (followed.reason != Reason::none) {
-    refuse(Reason::not_confirmed);
-    return;
-  }
+void Tracker::Memory::lock(const tracking::FollowResult& followed, double probability_of_false) {
   ++result.reset_count;
   follows = false;
-  // Of as many chance matches as are expected, at most so many exist (Markov).
-  false_lock_probability = result.acquisition.false_lock_probability;
+  false_lock_probability = probability_of_false;
+  better_searches = 0;
+  gathered.forget();
   accept(followed);
 }
 
-// 3.2
+// 3.2. Where tracking fails, acquisition may find the target in the same images.
 void Tracker::Memory::follow() {
-  acquired_last = false;
+  searched_last = false;
   const tracking::FollowResult& followed = follower.follow(frames, pose, considered_of);
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     result.cameras[i].regions = static_cast<std::uint32_t>(considered[i].size());
   }
-  if (followed.reason == Reason::none) {
+  const bool watches = rig.limits.watch_every_ticks > 0;
+  const Reason reason = followed.reason;
+  if (reason == Reason::none) {
     accept(followed);
-  } else {
-    refuse(followed.reason);
+    if (watches) watch(followed);
+  } else if (!watches || acquire() != Reason::none) {
+    refuse(reason);
   }
+}
+
+// Whether the target is not rather elsewhere: the search that acquisition makes, beside tracking.
+void Tracker::Memory::watch(const tracking::FollowResult& followed) {
+  if (!watching) searcher.give_up();
+  if (!searcher.busy()) {
+    const auto every = static_cast<std::uint64_t>(rig.limits.watch_every_ticks);
+    if (result.tick % every != 0) return;
+    watching = true;
+    watched_pose = result.pose;
+    watched_witnesses = witnesses_of(followed);
+  }
+  if (!searcher.look(frames, result.capture_time)) return;
+  better_searches = is_better_elsewhere() ? better_searches + 1 : 0;
+  if (better_searches < kBetterSearches) return;
+  const acquisition::AcquisitionResult& found = searcher.acquisition().result();
+  const tracking::FollowResult& there =
+      follower.follow(frames, found.candidate.pose, considered_of);
+  if (there.reason != Reason::none) return;
+  result.relock = Relock::better_elsewhere;
+  lock(there, found.counts.false_lock_probability);
+}
+
+bool Tracker::Memory::is_better_elsewhere() {
+  const acquisition::AcquisitionResult& found = searcher.acquisition().result();
+  if (found.reason != Reason::none ||
+      found.counts.false_lock_probability > rig.limits.max_false_lock_probability ||
+      same_place(rig.target, found.candidate.pose, watched_pose)) {
+    return false;
+  }
+  const double here =
+      searcher.acquisition().log_odds_of_lock(watched_pose, as_span(watched_witnesses));
+  return acquisition::false_lock_probability(found.candidate.log_odds, {&here, 1}) <=
+         kDoubtOfBetter;
 }
 
 void Tracker::Memory::accept(const tracking::FollowResult& followed) {
@@ -181,6 +256,7 @@ void Tracker::Memory::accept(const tracking::FollowResult& followed) {
 void Tracker::Memory::refuse(Reason reason) {
   result.reason = reason;
   follows = false;
+  better_searches = 0;
   ++result.ticks_lost;
   if (result.ticks_lost >= static_cast<std::uint32_t>(rig.limits.lost_after_ticks)) {
     state = State::acquiring;
@@ -202,7 +278,8 @@ const TickResult& Tracker::step(const Frames& frames) {
   if (m.delivered.size() < 2) {
     m.refuse(m.delivered.empty() ? Reason::no_frames : Reason::too_few_cameras);
   } else if (m.state == State::acquiring) {
-    m.acquire();
+    const Reason reason = m.acquire();
+    if (reason != Reason::none) m.refuse(reason);
   } else {
     m.follow();
   }
@@ -212,17 +289,19 @@ const TickResult& Tracker::step(const Frames& frames) {
 
 void Tracker::forget() {
   memory_->state = State::acquiring;
+  memory_->searcher.give_up();
+  memory_->gathered.forget();
 }
 
 std::span<const image::Region> Tracker::regions(std::size_t camera) const {
   const image::Regions& regions =
-      memory_->acquired_last ? memory_->candidates[camera] : memory_->considered[camera];
+      memory_->searched_last ? memory_->searcher.regions(camera) : memory_->considered[camera];
   return {regions.data(), regions.size()};
 }
 
 std::size_t Tracker::footprint_bytes() const {
   return sizeof(*this) + sizeof(Memory) + memory_->identifier.footprint_bytes() +
-         memory_->acquisition.footprint_bytes();
+         memory_->searcher.footprint_bytes();
 }
 
 }  // namespace dottrack::core

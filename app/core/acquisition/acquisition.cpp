@@ -1,74 +1,68 @@
 #include "app/core/acquisition/acquisition.h"
 
 #include <algorithm>
+#include <cmath>
 
-#include "app/core/acquisition/chance.h"
-#include "app/core/acquisition/finalists.h"
-#include "app/core/acquisition/match.h"
+#include "app/core/acquisition/ellipse_evidence.h"
+#include "app/core/acquisition/finalist_search.h"
+#include "app/core/acquisition/sightings.h"
+#include "app/core/estimation/locate.h"
 
 namespace dottrack::acquisition {
 namespace {
-
-// Work units in one tick; see WorkBudget.
-constexpr std::uint64_t kWorkUnits = 1'500'000;
-
-// A pair's point is looked for among finalists this many largest diameters around it: the depth of
-// a crossover is known less well than its place across the view.
-constexpr double kSearchDiameters = 2.0;
 
 // Lines of sight cross by chance in two views often, in more hardly ever: the target is looked for
 // among the finalists of many views first, then of fewer.
 constexpr std::array<int, 3> kViewLayers = {4, 3, 2};
 
-// A lock is refused when clutter would offer more matches as good as it by chance.
-constexpr double kMaxChanceMatches = 1e-3;
-
-// Two labellings are told apart when their scores differ by this many times the squared fit: the
-// worse one is then less likely by exp(-7), a thousandth.
-constexpr double kRivalMargin = 14.0;
-
-estimation::DiameterRange diameters(const core::Target& target) {
-  return {core::smallest_dot_diameter_m(target), core::largest_dot_diameter_m(target)};
-}
-
-std::size_t cameras_with_sightings(std::span<const CameraView> views) {
-  return static_cast<std::size_t>(std::count_if(
-      views.begin(), views.end(), [](const CameraView& v) { return !v.sightings.empty(); }));
-}
-
-core::Reason reason_of(SelectStatus status) {
-  switch (status) {
-    case SelectStatus::found:
-      return core::Reason::none;
-    case SelectStatus::none:
-      return core::Reason::no_matching_subset;
-    case SelectStatus::only_upside_down:
-      return core::Reason::upside_down;
-    case SelectStatus::work_budget:
-      return core::Reason::work_budget;
+double sum_of_squared_edge_errors(const TargetShape& shape, std::span<const Witness> witnesses) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < witnesses.size(); ++i) {
+    for (std::size_t j = i + 1; j < witnesses.size(); ++j) {
+      const double edge = (witnesses[i].position_m - witnesses[j].position_m).norm();
+      const double off = edge - shape.distance_m[witnesses[i].dot][witnesses[j].dot];
+      sum += off * off;
+    }
   }
-  return core::Reason::no_matching_subset;
+  return sum;
+}
+
+double mean_variance(std::span<const Witness> witnesses) {
+  double sum = 0.0;
+  for (const Witness& witness : witnesses) sum += witness.covariance_m2.trace() / 3.0;
+  return sum / static_cast<double>(witnesses.size());
 }
 
 }  // namespace
 
-image::RegionGate acquisition_gate(const core::Camera& camera, const geometry::Optics& optics,
-                                   const core::Target& target) {
-  const estimation::DiameterRange dots = diameters(target);
-  const geometry::AngularScale& scale = optics.extremes();
-  return estimation::dot_gate(
-      camera, {estimation::expected_semi_major(dots, camera.distance_max_m, scale).min_px,
-               estimation::expected_semi_major(dots, camera.distance_min_m, scale).max_px});
-}
-
 struct Acquisition::Memory {
   std::array<CameraView, kMaxCameras> views;
-  CandidatePairs pairs;
-  Matcher matcher;
-  FinalistMerger merger;
+  FinalistSearch search;
+  Selector selector;
   StaticVector<DotCandidate, core::kMaxFinalists> candidates;
   StaticVector<std::uint16_t, core::kMaxFinalists> origin;  // a candidate's index among finalists
-  Selector selector;
+  Selection selection;                                      // of finalists
+  Assignment given{};  // the same dots as candidates of their own, in their present order
+  CandidateLock lock;  // what the selection makes
+  CandidateLock rival;
+  AcquisitionResult result;
+
+  void clear_candidates() {
+    candidates.clear();
+    origin.clear();
+  }
+  void add_candidate(std::size_t finalist) {
+    const Finalist& f = search.finalists()[finalist];
+    candidates.push_back({f.position_m, f.diameter_m});
+    origin.push_back(static_cast<std::uint16_t>(finalist));
+  }
+  // From indices of candidates to indices of finalists.
+  Selection to_finalists(Selection selected) const {
+    for (std::uint16_t& index : selected.assignment) {
+      if (index != kNoCandidate) index = origin[index];
+    }
+    return selected;
+  }
 };
 
 Acquisition::Acquisition(const core::Rig& rig, std::span<const geometry::Optics> optics)
@@ -82,138 +76,251 @@ Acquisition::Acquisition(const core::Rig& rig, std::span<const geometry::Optics>
 Acquisition::~Acquisition() = default;
 
 std::size_t Acquisition::footprint_bytes() const {
-  return sizeof(*this) + sizeof(Memory) + Selector::footprint_bytes();
+  return sizeof(*this) + sizeof(Memory) + Selector::footprint_bytes() +
+         memory_->search.footprint_bytes();
 }
 
-void Acquisition::take_sightings(std::span<const image::Regions* const> regions) {
-  const estimation::DiameterRange dots = diameters(rig_->target);
-  for (std::size_t i = 0; i < rig_->cameras.size(); ++i) {
-    CameraView& view = memory_->views[i];
-    view.sightings.clear();
-    view.origin_offset_m = 0.0;
-    if (regions[i] == nullptr) continue;
-    const Eigen::Vector3d& centre = geometry::centre(view.camera->model);
-    for (std::size_t r = 0; r < regions[i]->size(); ++r) {
-      const image::Region& region = (*regions[i])[r];
-      estimation::Sighting sighting;
-      if (region.touches_border ||
-          !estimation::make_sighting(*view.camera, optics_[i], dots, region, sighting)) {
-        continue;
-      }
-      sighting.region = static_cast<std::uint16_t>(r);
-      view.sightings.push_back(sighting);
-      view.origin_offset_m =
-          std::max(view.origin_offset_m, (sighting.line.ray.origin - centre).norm());
+std::size_t Acquisition::sightings(std::size_t camera) const {
+  return memory_->views[camera].sightings.size();
+}
+
+std::size_t Acquisition::fewest_dots() const {
+  return std::min(shape_.dots, core::kMinPartialDots);
+}
+
+void Acquisition::start(std::span<const image::Regions* const> regions) {
+  const std::span<CameraView> views(memory_->views.data(), rig_->cameras.size());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    take_sightings(rig_->target, optics_[i], regions[i], views[i]);
+  }
+  const auto seeing = std::count_if(views.begin(), views.end(),
+                                    [](const CameraView& v) { return !v.sightings.empty(); });
+  memory_->result.reason = core::Reason::too_few_regions;
+  memory_->result.counts = {};
+  has_candidate_ = false;
+  memory_->search.start(views, core::largest_dot_diameter_m(rig_->target));
+  layer_ = 0;
+  stage_ = seeing >= 2 ? Stage::finalists : Stage::ended;
+}
+
+bool Acquisition::go_on(WorkBudget& budget) {
+  core::AcquisitionCounts& counts = memory_->result.counts;
+  if (busy()) ++counts.ticks;
+  while (busy() && step(budget)) {
+  }
+  counts.work_units = budget.spent();
+  return !busy();
+}
+
+const AcquisitionResult& Acquisition::result() const {
+  return memory_->result;
+}
+
+bool Acquisition::step(WorkBudget& budget) {
+  switch (stage_) {
+    case Stage::finalists:
+      return find_finalists(budget);
+    case Stage::selection:
+      return select(budget);
+    case Stage::other_labels:
+    case Stage::other_places:
+      return find_rival(budget);
+    case Stage::ended:
+      break;
+  }
+  return false;
+}
+
+// Of all reasons on the way, the one that the search came furthest with: they are numbered so.
+void Acquisition::note(core::Reason reason) {
+  core::Reason& kept = memory_->result.reason;
+  if (!has_candidate_) kept = std::max(kept, reason);
+}
+
+// 3.1.3
+bool Acquisition::find_finalists(WorkBudget& budget) {
+  core::AcquisitionCounts& counts = memory_->result.counts;
+  if (!memory_->search.advance(kViewLayers[layer_], budget, counts)) return false;
+  dots_ = shape_.dots;
+  begin_selection();
+  return true;
+}
+
+// 3.1.4
+void Acquisition::begin_selection() {
+  Memory& m = *memory_;
+  m.clear_candidates();
+  for (std::size_t i = 0; i < m.search.finalists().size(); ++i) {
+    if (m.search.finalists()[i].cameras.size() >= kViewLayers[layer_]) m.add_candidate(i);
+  }
+  while (dots_ > m.candidates.size() && dots_ > fewest_dots()) --dots_;
+  if (dots_ > m.candidates.size()) {
+    note(core::Reason::too_few_finalists);
+    go_on_with_fewer();
+    return;
+  }
+  m.selector.start(shape_, as_span(m.candidates),
+                   {largest_score(shape_, rig_->limits.max_rms_residual_m, dots_), dots_});
+  stage_ = Stage::selection;
+}
+
+bool Acquisition::select(WorkBudget& budget) {
+  Memory& m = *memory_;
+  Selection selected;
+  const SelectStatus status = m.selector.advance(budget, selected);
+  if (status == SelectStatus::work_budget) return false;
+  core::Reason reason = status == SelectStatus::only_upside_down ? core::Reason::upside_down
+                                                                 : core::Reason::no_matching_subset;
+  if (status == SelectStatus::found) {
+    m.selection = m.to_finalists(selected);
+    reason = make_lock(m.selection, m.lock);
+  }
+  if (reason == core::Reason::none) {
+    begin_other_labels();
+  } else {
+    note(reason);
+    go_on_with_fewer();
+  }
+  return true;
+}
+
+// Other parts of the target among the same finalists, then finalists of fewer views.
+void Acquisition::go_on_with_fewer() {
+  if (dots_ > fewest_dots() && memory_->candidates.size() >= fewest_dots()) {
+    --dots_;
+    begin_selection();
+    return;
+  }
+  ++layer_;
+  stage_ = layer_ < kViewLayers.size() ? Stage::finalists : Stage::ended;
+}
+
+// The score up to which another explanation is worth weighing: beyond it, it is less probable than
+// the limit on false locks by its misfit alone.
+double Acquisition::rival_score() const {
+  const Memory& m = *memory_;
+  const auto n = static_cast<double>(m.lock.witnesses.size());
+  const std::span<const Witness> witnesses = as_span(m.lock.witnesses);
+  const double variance = 2.0 * sum_of_squared_edge_errors(shape_, witnesses) / (n * (n - 1.0)) +
+                          mean_variance(witnesses);
+  const double margin = -2.0 * std::log(rig_->limits.max_false_lock_probability);
+  return std::min(m.selection.score_m2 + margin * n * variance,
+                  largest_score(shape_, rig_->limits.max_rms_residual_m, m.selection.dots));
+}
+
+// The same finalists, labelled otherwise: a symmetric target, turned round.
+void Acquisition::begin_other_labels() {
+  Memory& m = *memory_;
+  m.clear_candidates();
+  m.given.fill(kNoCandidate);
+  for (std::size_t dot = 0; dot < shape_.dots; ++dot) {
+    if (m.selection.assignment[dot] == kNoCandidate) continue;
+    m.given[dot] = static_cast<std::uint16_t>(m.candidates.size());
+    m.add_candidate(m.selection.assignment[dot]);
+  }
+  m.selector.start(shape_, as_span(m.candidates), {rival_score(), m.selection.dots, &m.given});
+  stage_ = Stage::other_labels;
+}
+
+// Other finalists: another thing that looks like the target.
+void Acquisition::begin_other_places() {
+  Memory& m = *memory_;
+  const double reach_m = core::largest_dot_diameter_m(rig_->target);
+  const auto belongs = [&](const Finalist& finalist) {
+    return std::any_of(m.lock.witnesses.begin(), m.lock.witnesses.end(), [&](const Witness& w) {
+      return (w.position_m - finalist.position_m).squaredNorm() < reach_m * reach_m;
+    });
+  };
+  m.clear_candidates();
+  for (std::size_t i = 0; i < m.search.finalists().size(); ++i) {
+    const Finalist& finalist = m.search.finalists()[i];
+    if (finalist.cameras.size() >= kViewLayers[layer_] && !belongs(finalist)) m.add_candidate(i);
+  }
+  if (m.candidates.size() < m.selection.dots) {
+    judge();
+    return;
+  }
+  m.selector.start(shape_, as_span(m.candidates), {rival_score(), m.selection.dots});
+  stage_ = Stage::other_places;
+}
+
+bool Acquisition::find_rival(WorkBudget& budget) {
+  Memory& m = *memory_;
+  Selection selected;
+  const SelectStatus status = m.selector.advance(budget, selected);
+  if (status == SelectStatus::work_budget) return false;
+  if (status == SelectStatus::found) {
+    const Selection rival = m.to_finalists(selected);
+    if (make_lock(rival, m.rival) == core::Reason::none) {
+      m.lock.rivals.push_back(m.rival.log_odds);
     }
   }
+  if (stage_ == Stage::other_labels) {
+    begin_other_places();
+  } else {
+    judge();
+  }
+  return true;
 }
 
-void Acquisition::match(core::AcquisitionCounts& counts, WorkBudget& budget) {
-  const std::span<const CameraView> views(memory_->views.data(), rig_->cameras.size());
-  const double largest_m = core::largest_dot_diameter_m(rig_->target);
-  FinalistMerger& merger = memory_->merger;
-  merger.start(kSearchDiameters * largest_m);
-  for (std::size_t a = 0; a < views.size(); ++a) {
-    for (std::size_t b = a + 1; b < views.size() && !budget.exhausted(); ++b) {
-      memory_->pairs.clear();
-      memory_->matcher.match(views, a, b, largest_m, memory_->pairs, counts, budget);
-      for (const CandidatePair& pair : memory_->pairs) {
-        if (budget.exhausted()) break;
-        merger.merge(views, pair, counts, budget);
-      }
+// Keeps the better one of this candidate and the one before, each the other's rival.
+void Acquisition::judge() {
+  Memory& m = *memory_;
+  AcquisitionResult& result = m.result;
+  if (has_candidate_) m.lock.rivals.push_back(result.candidate.log_odds);
+  const double p = false_lock_probability(m.lock.log_odds, as_span(m.lock.rivals));
+  if (!has_candidate_ || p < result.counts.false_lock_probability) {
+    has_candidate_ = true;
+    result.candidate = m.lock;
+    result.counts.false_lock_probability = p;
+    result.counts.min_views = static_cast<std::uint8_t>(kViewLayers[layer_]);
+    result.counts.dots_matched = m.selection.dots;
+    const double limit = rig_->limits.max_false_lock_probability;
+    result.reason = p > limit && false_lock_probability(m.lock.log_odds, {}) <= limit
+                        ? core::Reason::ambiguous
+                        : core::Reason::none;
+    if (p <= limit) {
+      stage_ = Stage::ended;
+      return;
     }
   }
-  if (!budget.exhausted()) merger.refine(views, budget);
-  counts.finalists = static_cast<std::uint32_t>(merger.finalists().size());
+  go_on_with_fewer();
 }
 
-core::Reason Acquisition::select(int min_views, WorkBudget& budget, Selection& selection) {
-  const Finalists& finalists = memory_->merger.finalists();
-  auto& candidates = memory_->candidates;
-  auto& origin = memory_->origin;
-  candidates.clear();
-  origin.clear();
-  for (std::size_t i = 0; i < finalists.size(); ++i) {
-    if (finalists[i].cameras.size() < min_views) continue;
-    candidates.push_back({finalists[i].position_m, finalists[i].diameter_m});
-    origin.push_back(static_cast<std::uint16_t>(i));
+// 3.1.5
+core::Reason Acquisition::make_lock(const Selection& selection, CandidateLock& lock) const {
+  const std::span<const Finalist> finalists = as_span(memory_->search.finalists());
+  lock.rivals.clear();
+  lock.witnesses = witnesses_of(finalists, selection);
+  StaticVector<estimation::LocatedDot, core::kMaxDots> dots;
+  for (const Witness& witness : lock.witnesses) {
+    dots.push_back(
+        estimation::triangulated_dot(witness.dot, witness.position_m, witness.covariance_m2));
   }
-  memory_->selector.start(
-      shape_, as_span(candidates),
-      {largest_score(shape_, rig_->limits.max_rms_residual_m, shape_.dots), shape_.dots});
-  const SelectStatus status = memory_->selector.advance(budget, selection);
-  if (status != SelectStatus::found) return reason_of(status);
-  for (std::size_t k = 0; k < shape_.dots; ++k) {
-    selection.assignment[k] = origin[selection.assignment[k]];
-  }
+  const core::Reason reason = estimation::reason_of(estimation::locate(
+      rig_->target, as_span(dots), rig_->limits.max_rms_residual_m, nullptr, lock.pose));
+  if (reason != core::Reason::none) return reason;
+  lock.log_odds =
+      log_odds_of_lock(lock.pose, as_span(lock.witnesses)) + ellipse_evidence(selection, lock.pose);
   return core::Reason::none;
 }
 
-// Another labelling of the same dots is nearly as good: a symmetric target, turned round.
-bool Acquisition::has_rival_labelling(const Selection& selection, WorkBudget& budget) {
-  const Finalists& finalists = memory_->merger.finalists();
-  auto& candidates = memory_->candidates;
-  candidates.clear();
-  Assignment given;
-  given.fill(kNoCandidate);
-  for (std::size_t k = 0; k < shape_.dots; ++k) {
-    const Finalist& finalist = finalists[selection.assignment[k]];
-    candidates.push_back({finalist.position_m, finalist.diameter_m});
-    given[k] = static_cast<std::uint16_t>(k);
-  }
-  const double fit_m = fit_of(shape_, as_span(finalists), selection);
-  Selection rival;
-  memory_->selector.start(shape_, as_span(candidates),
-                          {selection.score_m2 + kRivalMargin * fit_m * fit_m, shape_.dots, &given});
-  return memory_->selector.advance(budget, rival) == SelectStatus::found;
+double Acquisition::log_odds_of_lock(const core::Pose& pose,
+                                     std::span<const Witness> witnesses) const {
+  return log_odds_of(rig_->target, witnesses, pose, as_span(memory_->search.finalists()),
+                     rig_->limits.max_rms_residual_m);
 }
 
-core::Reason Acquisition::judge(const Selection& selection, WorkBudget& budget,
-                                AcquisitionResult& result) {
-  const Finalists& finalists = memory_->merger.finalists();
-  result.counts.false_lock_probability =
-      std::min(1.0, chance_matches(shape_, as_span(finalists), selection));
-  if (result.counts.false_lock_probability > kMaxChanceMatches ||
-      has_rival_labelling(selection, budget)) {
-    return core::Reason::ambiguous;
+// 3.3: how the regions look beside what dots with these normals look like.
+double Acquisition::ellipse_evidence(const Selection& selection, const core::Pose& pose) const {
+  double sum = 0.0;
+  for (std::size_t dot = 0; dot < shape_.dots; ++dot) {
+    if (selection.assignment[dot] == kNoCandidate) continue;
+    const Finalist& finalist = memory_->search.finalists()[selection.assignment[dot]];
+    sum += ellipse_log_odds_of_dot({memory_->views.data(), rig_->cameras.size()}, finalist,
+                                   rig_->target.dots[dot], pose);
   }
-  StaticVector<estimation::LocatedDot, core::kMaxDots> dots;
-  for (std::size_t k = 0; k < shape_.dots; ++k) {
-    const Finalist& finalist = finalists[selection.assignment[k]];
-    dots.push_back(estimation::triangulated_dot(k, finalist.position_m, finalist.covariance_m2));
-  }
-  return estimation::reason_of(estimation::locate(
-      rig_->target, as_span(dots), rig_->limits.max_rms_residual_m, nullptr, result.pose));
-}
-
-core::Reason Acquisition::select_and_locate(WorkBudget& budget, AcquisitionResult& result) {
-  core::Reason reason = core::Reason::no_matching_subset;
-  for (const int min_views : kViewLayers) {
-    Selection selection;
-    reason = select(min_views, budget, selection);
-    if (reason == core::Reason::none) reason = judge(selection, budget, result);
-    if (reason == core::Reason::none || reason == core::Reason::work_budget) break;
-  }
-  return reason;
-}
-
-AcquisitionResult Acquisition::acquire(std::span<const image::Regions* const> regions) {
-  AcquisitionResult result;
-  WorkBudget budget(kWorkUnits);
-  take_sightings(regions);
-  const std::span<const CameraView> views(memory_->views.data(), rig_->cameras.size());
-  if (cameras_with_sightings(views) >= 2) {
-    match(result.counts, budget);
-    if (budget.exhausted()) {
-      result.reason = core::Reason::work_budget;
-    } else if (result.counts.finalists < shape_.dots) {
-      result.reason = core::Reason::too_few_finalists;
-    } else {
-      result.reason = select_and_locate(budget, result);
-    }
-  }
-  result.counts.work_units = budget.spent();
-  return result;
+  return sum;
 }
 
 }  // namespace dottrack::acquisition
