@@ -6,6 +6,29 @@
 namespace dottrack::bench {
 namespace {
 
+// What a step may take, in byte sums of the twelve images.
+struct Goal {
+  const char* name;
+  double byte_sums;
+};
+constexpr Goal kGoals[] = {{"identify/sparse", 2.0}, {"identify/heavy", 4.0},
+                           {"identify/sim", 4.0},    {"acquire/heavy/4", 8.0},
+                           {"acquire/heavy/8", 8.0}, {"acquire/sim/4", 8.0},
+                           {"acquire/sim/8", 8.0}};
+
+// How many times faster than something else a step is to be.
+struct Comparison {
+  const char* theirs;
+  const char* ours;
+  double goal;  // 0: none
+};
+constexpr Comparison kComparisons[] = {
+    {"opencv/contours/sparse", "identify/sparse", 0.0},
+    {"opencv/connected_components/sparse", "identify/sparse", 0.0},
+    {"opencv/contours/heavy", "identify/heavy", 15.0},
+    {"opencv/connected_components/heavy", "identify/heavy", 45.0},
+    {"select_brute_force/4/200", "select/4/200", 50'000.0}};
+
 // These use all cores: their measure is real time.
 bool is_simulation(const std::string& name) {
   return name.starts_with("sim/");
@@ -49,11 +72,25 @@ void RatioTable::print_row(const std::string& name, double us) const {
   }
 }
 
-void RatioTable::print_comparison(const std::string& opencv, const std::string& ours) const {
-  const double theirs_us = time_us(opencv);
-  const double ours_us = time_us(ours);
-  if (theirs_us <= 0.0 || ours_us <= 0.0) return;
-  std::printf("%-36s %8.1f x %s\n", opencv.c_str(), theirs_us / ours_us, ours.c_str());
+void RatioTable::print_comparisons() const {
+  for (const Comparison& comparison : kComparisons) {
+    const double theirs_us = time_us(comparison.theirs);
+    const double ours_us = time_us(comparison.ours);
+    if (theirs_us <= 0.0 || ours_us <= 0.0) continue;
+    std::printf("%-36s %12.1f x %s", comparison.theirs, theirs_us / ours_us, comparison.ours);
+    if (comparison.goal > 0.0) std::printf(" (goal: %.0f)", comparison.goal);
+    std::printf("\n");
+  }
+}
+
+void RatioTable::print_goals() const {
+  const double s = time_us("byte_sum");
+  for (const Goal& goal : kGoals) {
+    const double us = time_us(goal.name);
+    if (us <= 0.0 || s <= 0.0) continue;
+    std::printf("%-36s %12.2f byte sums, at most %.0f: %s\n", goal.name, us / s, goal.byte_sums,
+                us <= goal.byte_sums * s ? "held" : "missed");
+  }
 }
 
 void RatioTable::Finalize() {
@@ -64,11 +101,9 @@ void RatioTable::Finalize() {
   std::printf("\n");
   print_rate("sim/drive_tick", "simulated ticks, 12 cameras");
   print_rate("sim/acquisition", "simulated acquisitions, 12 cameras");
-  for (const char* scene : {"sparse", "heavy"}) {
-    const std::string ours = std::string("identify/") + scene;
-    print_comparison(std::string("opencv/contours/") + scene, ours);
-    print_comparison(std::string("opencv/connected_components/") + scene, ours);
-  }
+  print_comparisons();
+  std::printf("\n");
+  print_goals();
 }
 
 void RatioTable::print_rate(const std::string& name, const char* what) const {
