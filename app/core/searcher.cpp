@@ -3,12 +3,6 @@
 #include "app/core/image/band.h"
 
 namespace dottrack::core {
-namespace {
-
-// Work units in one tick, about 10 ns each on a desktop core; see WorkBudget.
-constexpr std::uint64_t kWorkUnits = 200'000;
-
-}  // namespace
 
 struct Searcher::Memory {
   Memory(const Rig& rig, std::span<const geometry::Optics> optics) : acquisition(rig, optics) {
@@ -51,6 +45,10 @@ bool Searcher::look(std::span<const CameraFrame> frames, Time captured) {
   }
   acquisition::WorkBudget budget(kWorkUnits);
   busy_ = !m.acquisition.go_on(budget);
+  if (busy_ && m.acquisition.result().counts.ticks >= kMaxTicks) {
+    m.acquisition.stop();
+    busy_ = false;
+  }
   return !busy_;
 }
 

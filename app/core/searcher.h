@@ -3,6 +3,7 @@
 // acquisition within a bound of work a tick.
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <span>
 
@@ -17,6 +18,11 @@ namespace dottrack::core {
 
 class Searcher {
  public:
+  // Work of acquisition in one tick, in units of about 10 ns on a desktop core; see WorkBudget.
+  static constexpr std::uint64_t kWorkUnits = 200'000;
+  // A search that takes longer is given up: the vehicle is elsewhere by now.
+  static constexpr std::uint32_t kMaxTicks = 20;
+
   // The rig, the optics and the identifier must outlive the object.
   Searcher(const Rig& rig, std::span<const geometry::Optics> optics, image::Identifier& identifier);
   ~Searcher();
@@ -24,7 +30,7 @@ class Searcher {
   Searcher& operator=(const Searcher&) = delete;
 
   // One tick's part: goes on with the search that is under way, else begins one on these frames.
-  // True when a search has ended with it.
+  // True when a search has ended with it, or has been given up: its result says which.
   bool look(std::span<const CameraFrame> frames, Time captured);
   // Drops the search that is under way.
   void give_up();

@@ -112,6 +112,11 @@ bool Acquisition::go_on(WorkBudget& budget) {
   return !busy();
 }
 
+void Acquisition::stop() {
+  if (busy()) note(core::Reason::work_budget);
+  stage_ = Stage::ended;
+}
+
 const AcquisitionResult& Acquisition::result() const {
   return memory_->result;
 }

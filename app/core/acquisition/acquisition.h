@@ -51,6 +51,9 @@ class Acquisition {
   // Goes on until the search has ended (true) or the budget has run out.
   bool go_on(WorkBudget& budget);
 
+  // Ends the search with the best that was found so far; without any its reason is work_budget.
+  void stop();
+
   // A search has begun and has not ended.
   bool busy() const { return stage_ != Stage::ended; }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The bound of acquisition's work in one tick, counted in deterministic units (ten to a hundred
+// The bound of acquisition's work in one tick, counted in deterministic units (about ten
 // nanoseconds each on a desktop core), never in time: the same frames stop at the same place.
 
 #include <cstdint>
