@@ -90,33 +90,45 @@ PairGate test_pair(const CameraView& a, std::size_t sighting_a, const CameraView
   return PairGate::accepted;
 }
 
-void Matcher::match(std::span<const CameraView> views, std::size_t a, std::size_t b,
+void Matcher::start() {}
+
+bool Matcher::match(std::span<const CameraView> views, std::size_t a, std::size_t b,
                     double max_miss_m, CandidatePairs& pairs, core::AcquisitionCounts& counts,
-                    WorkBudget& budget) {
+                    WorkBudget& budget, std::size_t& next) {
   const CameraView& view_a = views[a];
   const CameraView& view_b = views[b];
-  if (view_a.sightings.empty() || view_b.sightings.empty()) return;
+  if (view_a.sightings.empty() || view_b.sightings.empty()) return true;
   const PlanePencil pencil(geometry::centre(view_a.camera->model),
                            geometry::centre(view_b.camera->model), middle_of_scene(view_a, view_b));
-  if (!pencil.has_baseline()) return;
+  if (!pencil.has_baseline()) return true;
   index_.build(pencil, view_b.sightings);
   const double reach_m = max_miss_m + view_a.origin_offset_m + view_b.origin_offset_m;
 
   CandidatePair pair;
   pair.camera = {static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b)};
-  for (std::size_t i = 0; i < view_a.sightings.size(); ++i) {
-    const Sighting& sighting = view_a.sightings[i];
+  for (; next < view_a.sightings.size(); ++next) {
+    if (budget.exhausted()) return false;
+    const Sighting& sighting = view_a.sightings[next];
     const Eigen::Vector3d& direction = sighting.line.ray.direction;
     const double tolerance =
         plane_tolerance(pencil.sine_to_baseline(direction), sighting.window.near_m, reach_m);
     const auto candidates = index_.near(pencil.angle(direction), tolerance);
-    if (!budget.spend(1 + candidates.size())) return;
+    budget.spend(1 + candidates.size());
     for (const std::uint16_t j : candidates) {
-      const PairGate gate = test_pair(view_a, i, view_b, j, max_miss_m, pair);
+      const PairGate gate = test_pair(view_a, next, view_b, j, max_miss_m, pair);
       count(gate, counts);
       if (gate == PairGate::accepted && !try_push_back(pairs, pair)) ++counts.overflow;
     }
   }
+  return true;
+}
+
+void Matcher::match(std::span<const CameraView> views, std::size_t a, std::size_t b,
+                    double max_miss_m, CandidatePairs& pairs, core::AcquisitionCounts& counts,
+                    WorkBudget& budget) {
+  start();
+  std::size_t next = 0;
+  match(views, a, b, max_miss_m, pairs, counts, budget, next);
 }
 
 }  // namespace dottrack::acquisition
