@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <span>
 
-#include "app/core/acquisition/plane_index.h"
+#include "app/core/acquisition/pair_filter.h"
+#include "app/core/acquisition/ray_arrays.h"
 #include "app/core/acquisition/work_budget.h"
 #include "app/core/estimation/sighting.h"
 #include "app/core/rig.h"
 #include "app/core/tick_result.h"
+#include "hal/base/camera_set.h"
 #include "hal/base/static_vector.h"
 
 namespace dottrack::acquisition {
@@ -64,7 +66,11 @@ class Matcher {
              CandidatePairs& pairs, core::AcquisitionCounts& counts, WorkBudget& budget);
 
  private:
-  PlaneIndex index_;
+  const RayArrays& rays(std::span<const CameraView> views, std::size_t camera);
+
+  std::array<RayArrays, kMaxCameras> rays_;
+  CameraSet prepared_;
+  PairFilter filter_;
 };
 
 }  // namespace dottrack::acquisition
