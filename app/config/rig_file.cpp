@@ -5,6 +5,7 @@
 #include <toml++/toml.h>
 #include <algorithm>
 #include <boost/crc.hpp>
+#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "app/config/complaint.h"
 #include "app/config/rig_rules.h"
 #include "app/config/table_reader.h"
+#include "app/config/target_admission.h"
 #include "app/config/target_file.h"
 #include "app/config/target_reader.h"
 #include "app/config/text_file.h"
@@ -192,7 +194,8 @@ class RigReader {
   // The other files are opened only when the rig file itself is right.
   void load_files() {
     for (std::size_t i = 0; i < config_.cameras.size(); ++i) load_model(i);
-    for (NamedTarget& target : targets_) load_dots(target);
+    const double sigma_m = complaint_.empty() ? expected_sigma_m(config_.rig) : 0.0;
+    for (NamedTarget& target : targets_) load_dots(target, sigma_m);
   }
 
   void load_model(std::size_t index) {
@@ -215,15 +218,23 @@ class RigReader {
     check_dimensions(camera, path, line);
   }
 
-  void load_dots(NamedTarget& target) {
+  void load_dots(NamedTarget& target, double sigma_m) {
     const std::filesystem::path path = beside_rig(target.dots);
     const auto text =
         load_text("dots", path, target.dots_line, "a target file, relative to the rig file");
     if (!text) return;
-    Result<TargetDots> dots = parse_target_text(*text, path.string());
-    if (!dots) return complaint_.add(dots.error());
-    target.target.dots = *dots;
+    Result<TargetFile> file = parse_target_text(*text, path.string());
+    if (!file) return complaint_.add(file.error());
+    target.target.dots = file->dots;
+    if (complaint_.empty()) admit(target, *file, path.string(), sigma_m);
     config_.targets.push_back({std::move(target.name), target.target});
+  }
+
+  void admit(const NamedTarget& target, const TargetFile& file, const std::string& path,
+             double sigma_m) {
+    auto warnings = admit_target(target.target, file, path, {sigma_m, target.allow_ambiguous});
+    if (!warnings) return complaint_.add(warnings.error());
+    std::move(warnings->begin(), warnings->end(), std::back_inserter(config_.warnings));
   }
 
   void check_dimensions(const core::Camera& camera, const std::filesystem::path& path,

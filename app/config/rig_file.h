@@ -38,6 +38,8 @@ struct RigConfig {
   // CRC-32 (ISO-HDLC, that of zip) of the rig file, the camera models and the targets' dots, in the
   // order of the tables: the same files have the same number.
   std::uint32_t config_hash = 0;
+  // What is no error but should be known, a line each.
+  std::vector<std::string> warnings;
 };
 
 // An unknown key, a missing file, a unit that makes no sense or a degenerate target is an error

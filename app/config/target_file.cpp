@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "app/config/complaint.h"
 #include "app/config/target_shape.h"
@@ -42,7 +43,7 @@ class TargetParser {
  public:
   explicit TargetParser(const std::string& name) : complaint_(name) {}
 
-  Result<TargetDots> parse(std::string_view text) {
+  Result<TargetFile> parse(std::string_view text) {
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     while (!text.empty() && complaint_.empty()) {
@@ -53,7 +54,7 @@ class TargetParser {
     }
     check_target();
     if (!complaint_.empty()) return tl::unexpected<Error>(complaint_.first());
-    return dots_;
+    return TargetFile{dots_, std::move(ids_), std::move(lines_)};
   }
 
  private:
@@ -176,11 +177,11 @@ class TargetParser {
 
 }  // namespace
 
-Result<TargetDots> parse_target_text(const std::string& text, const std::string& name) {
+Result<TargetFile> parse_target_text(const std::string& text, const std::string& name) {
   return TargetParser(name).parse(text);
 }
 
-Result<TargetDots> read_target_file(const std::filesystem::path& path) {
+Result<TargetFile> read_target_file(const std::filesystem::path& path) {
   const Result<std::string> text = read_text_file(path);
   if (!text) {
     Complaint complaint(path.string());

@@ -22,13 +22,15 @@ class TargetsReader {
       : complaint_(complaint), title_(std::move(title)) {}
 
   void read(const toml::table& table) {
-    TableReader reader(complaint_, table, title_, {"name", "dots", "upright", "max_step_m"});
+    TableReader reader(complaint_, table, title_,
+                       {"name", "dots", "upright", "max_step_m", "allow_ambiguous"});
     NamedTarget target;
     target.name = reader.text("name", "target");
     check_name(reader, target.name);
     target.dots = reader.text("dots");
     target.dots_line = reader.line("dots");
     target.target.upright = reader.boolean("upright", true);
+    target.allow_ambiguous = reader.boolean("allow_ambiguous", false);
     target.target.max_step_m = reader.number("max_step_m", 0.2, kStep);
     name_lines_.push_back(reader.line("name"));
     targets_.push_back(std::move(target));

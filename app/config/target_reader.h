@@ -19,6 +19,7 @@ struct NamedTarget {
   core::Target target;
   std::filesystem::path dots;  // as the rig file names it
   std::size_t dots_line = 0;
+  bool allow_ambiguous = false;  // warn of a target that looks like itself turned, load it still
 };
 
 // In the order of the file, with names of their own.

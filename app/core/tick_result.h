@@ -64,6 +64,7 @@ struct CameraTick {
 
 // How many candidates each gate of acquisition left over (paper 3.1.2 to 3.1.5).
 struct AcquisitionCounts {
+  // Of sightings in two cameras that no coarse look ruled out; what the gates refused of them.
   std::uint32_t pairs_tested = 0;
   std::uint32_t rejected_collinear = 0;
   std::uint32_t rejected_behind = 0;

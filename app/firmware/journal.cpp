@@ -32,4 +32,8 @@ void log_line(telemetry::Severity severity, const std::string& text) {
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
+void log_warnings(std::span<const std::string> lines) {
+  for (const std::string& line : lines) log_line(telemetry::Severity::warning, line);
+}
+
 }  // namespace dottrack::firmware

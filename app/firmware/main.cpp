@@ -36,6 +36,7 @@ int check(const std::filesystem::path& path) {
     log_line(Severity::error, config.error().message);
     return kWrongUse;
   }
+  log_warnings(config->warnings);
   const std::vector<std::string> lines = missing(*config, find_devices());
   for (const std::string& line : lines) log_line(Severity::error, path.string() + ": " + line);
   if (!lines.empty()) return kFailed;

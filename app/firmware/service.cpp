@@ -64,6 +64,7 @@ class Service {
   int run() {
     Result<config::RigConfig> config = config::load_rig(options_.config);
     if (!config) return give_up(config.error(), kWrongUse);
+    log_warnings(config->warnings);
     if (auto done = prepare(); !done) return give_up(done.error(), kFailed);
     if (auto done = start(*config); !done) return give_up(done.error(), kFailed);
     manager_.ready();
@@ -159,6 +160,7 @@ class Service {
   void reload() {
     Result<config::RigConfig> config = config::load_rig(options_.config);
     if (!config) return keep(config.error());
+    log_warnings(config->warnings);
     if (unit_->takes(*config)) {
       unit_->exchange(std::move(*config));
       log_line(Severity::info, "the new configuration is in force");

@@ -9,6 +9,7 @@
 
 #include "app/config/rig_file.h"
 #include "app/workstation/exit_status.h"
+#include "app/workstation/rig_warnings.h"
 
 namespace dottrack::workstation {
 namespace {
@@ -82,6 +83,7 @@ int run(const std::string& rig, bool table) {
     fmt::print(stderr, "dottrack: {}\n", config.error().message);
     return kWrongUse;
   }
+  print_warnings(*config);
   fmt::print("{}", load_text(config::can_use(*config)));
   return kDone;
 }

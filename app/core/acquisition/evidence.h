@@ -3,26 +3,24 @@
 // the wrong thing (paper section 4: "very occasionally the tracker would lock onto the wrong
 // object").
 //
-// A candidate lock of m dots has a residual of d = 3 m - 6 coordinates, what is left of its dots'
-// places after the best pose. If it is the target, that residual is normally distributed with the
-// dots' covariances. If it is chance, unrelated finalists of density mu_k at each dot's place make
-// it evenly distributed, with the expected number per unit of residual volume
-//   mu_1 ... mu_m * J,  J = m^(3/2) sqrt(det(sum over dots of (r^2 I - r r^T))), r from their mean,
-// for each pose (J: how poses and residuals span the dots' places). The ratio of both, with a prior
-// that spreads the target's pose evenly over the work volume and its upright orientations, is the
-// odds.
+// By Bayes' rule. If a candidate of m dots is the target, its residual is normally distributed with
+// the dots' covariances and some systematic error, in a pose that is anywhere in the room; if it is
+// chance, clutter happens to lie at each dot's place, as probably as the density of clutter says
+// that is seen by as many cameras and is as large. The ratio of the two is the odds; docs/
+// false-locks.md derives them and tells how they were checked.
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "app/core/acquisition/finalists.h"
+#include "app/core/acquisition/rigid_fit.h"
 #include "app/core/acquisition/select.h"
 #include "app/core/limits.h"
 #include "app/core/rig.h"
 #include "app/core/tick_result.h"
 #include "hal/base/static_vector.h"
-#include "hal/base/time.h"
 
 namespace dottrack::acquisition {
 
@@ -33,6 +31,7 @@ struct Witness {
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  // that the lines' sigmas imply
   double diameter_m = 0.0;                                  // as measured
   int views = 0;                                            // cameras that see it
+  std::uint16_t finalist = kNoCandidate;                    // index among the finalists
 };
 using Witnesses = StaticVector<Witness, core::kMaxDots>;
 
@@ -49,34 +48,22 @@ struct CandidateLock {
 };
 
 // The log odds of one tick from places, sizes and views. `finalists`: all there are, the
-// candidate's included; what is not the candidate's is clutter.
+// candidate's included; what is neither the candidate's nor a splinter of it is clutter. Takes
+// about a nanosecond for every pair of a witness and a finalist.
 double log_odds_of(const core::Target& target, std::span<const Witness> witnesses,
                    const core::Pose& pose, std::span<const Finalist> finalists,
                    double max_rms_residual_m);
 
+// The part of log_odds_of that says how well the places fit; see log_fit. Errors and places in the
+// vehicle's frame, from the pose given.
+using RigidDots = StaticVector<RigidDot, core::kMaxDots>;
+RigidDots rigid_dots(const core::Target& target, std::span<const Witness> witnesses,
+                     const core::Pose& pose);
+
 // That the candidate is wrong, given what else explains the images as well: (1 + sum of the
-// rivals' odds) / (1 + sum of all odds). Does not overflow for any log odds.
+// rivals' odds) / (1 + sum of all odds). Does not overflow for any log odds; 1 for a log odds that
+// is no number. Rounded to single precision: the last bits of a logarithm differ from library to
+// library.
 double false_lock_probability(double log_odds, std::span<const double> rivals);
-
-// Evidence of one candidate over several ticks: its pose must persist and move as a vehicle can.
-// Random errors average out, so a chance match must fit ever better; and when the candidate has
-// moved as one body, clutter would have had to offer another match at the new place.
-class GatheredEvidence {
- public:
-  GatheredEvidence(const core::Target& target, const core::TrackingLimits& limits);
-
-  void forget();
-  // Takes in one tick's candidate and says how probably it is false in the light of all ticks since
-  // the chain began. A candidate that the vehicle cannot have reached from the one before, or with
-  // other dots, begins a new chain.
-  double add(const CandidateLock& candidate, Time captured);
-  // Ticks in the chain.
-  int ticks() const { return ticks_; }
-
- private:
-  const core::Target* target_;
-  const core::TrackingLimits* limits_;
-  int ticks_ = 0;
-};
 
 }  // namespace dottrack::acquisition

@@ -1,15 +1,16 @@
 #include "app/core/acquisition/match.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "app/core/geometry/crossover.h"
 
 namespace dottrack::acquisition {
 namespace {
 
 using estimation::Sighting;
+
+// What the work costs, in units of about 10 ns.
+constexpr std::size_t kRaysPreparedInAUnit = 2;
+constexpr std::uint32_t kLooksInAUnit = 16;
+constexpr std::uint32_t kUnitsToTest = 3;
 
 bool within(double range_m, const core::Camera& camera) {
   return range_m >= camera.distance_min_m && range_m <= camera.distance_max_m;
@@ -40,23 +41,6 @@ void count(PairGate gate, core::AcquisitionCounts& counts) {
       ++counts.rejected_reprojection;
       break;
   }
-}
-
-// Largest angle between the planes of two rays that pass within max_miss of each other, when the
-// first is crossed no nearer than near_m from its camera.
-double plane_tolerance(double sine_to_baseline, double near_m, double max_miss_m) {
-  const double rho = near_m * sine_to_baseline;
-  return max_miss_m < rho ? std::asin(max_miss_m / rho) : std::numbers::pi;
-}
-
-// A point in front of both cameras: half way along their middle rays.
-Eigen::Vector3d middle_of_scene(const CameraView& a, const CameraView& b) {
-  const auto middle = [](const CameraView& view) -> Eigen::Vector3d {
-    const geometry::Ray& ray = view.sightings[view.sightings.size() / 2].line.ray;
-    return ray.origin +
-           0.5 * (view.camera->distance_min_m + view.camera->distance_max_m) * ray.direction;
-  };
-  return 0.5 * (middle(a) + middle(b));
 }
 
 }  // namespace
@@ -90,33 +74,52 @@ PairGate test_pair(const CameraView& a, std::size_t sighting_a, const CameraView
   return PairGate::accepted;
 }
 
-void Matcher::match(std::span<const CameraView> views, std::size_t a, std::size_t b,
+void Matcher::start() {
+  prepared_ = {};
+}
+
+const RayArrays& Matcher::rays(std::span<const CameraView> views, std::size_t camera) {
+  if (!prepared_.contains(camera)) {
+    fill(rays_[camera], *views[camera].camera, views[camera].sightings);
+    prepared_.insert(camera);
+  }
+  return rays_[camera];
+}
+
+bool Matcher::match(std::span<const CameraView> views, std::size_t a, std::size_t b,
                     double max_miss_m, CandidatePairs& pairs, core::AcquisitionCounts& counts,
-                    WorkBudget& budget) {
+                    WorkBudget& budget, std::size_t& next) {
   const CameraView& view_a = views[a];
   const CameraView& view_b = views[b];
-  if (view_a.sightings.empty() || view_b.sightings.empty()) return;
-  const PlanePencil pencil(geometry::centre(view_a.camera->model),
-                           geometry::centre(view_b.camera->model), middle_of_scene(view_a, view_b));
-  if (!pencil.has_baseline()) return;
-  index_.build(pencil, view_b.sightings);
-  const double reach_m = max_miss_m + view_a.origin_offset_m + view_b.origin_offset_m;
+  const std::size_t rows = view_a.sightings.size();
+  if (next >= rows || view_b.sightings.empty()) return true;
+  if (budget.exhausted()) return false;
+  budget.spend((rows + view_b.sightings.size()) / kRaysPreparedInAUnit);
+  if (!filter_.start(rays(views, a), rays(views, b), max_miss_m)) return true;
 
   CandidatePair pair;
   pair.camera = {static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b)};
-  for (std::size_t i = 0; i < view_a.sightings.size(); ++i) {
-    const Sighting& sighting = view_a.sightings[i];
-    const Eigen::Vector3d& direction = sighting.line.ray.direction;
-    const double tolerance =
-        plane_tolerance(pencil.sine_to_baseline(direction), sighting.window.near_m, reach_m);
-    const auto candidates = index_.near(pencil.angle(direction), tolerance);
-    if (!budget.spend(1 + candidates.size())) return;
-    for (const std::uint16_t j : candidates) {
-      const PairGate gate = test_pair(view_a, i, view_b, j, max_miss_m, pair);
-      count(gate, counts);
-      if (gate == PairGate::accepted && !try_push_back(pairs, pair)) ++counts.overflow;
+  while (next < rows) {
+    for (const PairFilter::Row& row : filter_.rows(next)) {
+      budget.spend(1U + row.looked_at / kLooksInAUnit + kUnitsToTest * row.hits);
+      for (const std::uint16_t j : filter_.hits(row)) {
+        const PairGate gate = test_pair(view_a, next, view_b, j, max_miss_m, pair);
+        count(gate, counts);
+        if (gate == PairGate::accepted && !try_push_back(pairs, pair)) ++counts.overflow;
+      }
+      ++next;
+      if (budget.exhausted()) return next == rows;
     }
   }
+  return true;
+}
+
+void Matcher::match(std::span<const CameraView> views, std::size_t a, std::size_t b,
+                    double max_miss_m, CandidatePairs& pairs, core::AcquisitionCounts& counts,
+                    WorkBudget& budget) {
+  start();
+  std::size_t next = 0;
+  match(views, a, b, max_miss_m, pairs, counts, budget, next);
 }
 
 }  // namespace dottrack::acquisition

@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <span>
 
-#include "app/core/acquisition/plane_index.h"
+#include "app/core/acquisition/pair_filter.h"
+#include "app/core/acquisition/ray_arrays.h"
 #include "app/core/acquisition/work_budget.h"
 #include "app/core/estimation/sighting.h"
 #include "app/core/rig.h"
 #include "app/core/tick_result.h"
+#include "hal/base/camera_set.h"
 #include "hal/base/static_vector.h"
 
 namespace dottrack::acquisition {
@@ -45,16 +47,30 @@ enum class PairGate : std::uint8_t {
 PairGate test_pair(const CameraView& a, std::size_t sighting_a, const CameraView& b,
                    std::size_t sighting_b, double max_miss_m, CandidatePair& pair);
 
-// Appends all accepted pairs between cameras a and b (indices into views), in the order of a's and
-// then b's sightings; counts what every gate refused. Pairs beyond capacity are counted, not kept;
-// stops early when the budget is exhausted.
+// Finds all pairs of sightings of two cameras that test_pair accepts.
 class Matcher {
  public:
+  // Forgets what was prepared of the views: to be called whenever sightings have changed.
+  void start();
+
+  // Appends all accepted pairs between cameras a and b (indices into views), in the order of a's
+  // and then b's sightings, from a's sighting `next` on. True when done; false when the budget ran
+  // out: go on by calling again with the same `next`. Every call that finds budget left tests at
+  // least one of a's sightings. Pairs beyond capacity are counted as overflow, not kept.
+  bool match(std::span<const CameraView> views, std::size_t a, std::size_t b, double max_miss_m,
+             CandidatePairs& pairs, core::AcquisitionCounts& counts, WorkBudget& budget,
+             std::size_t& next);
+
+  // The same from a's first sighting on, of views that may have changed since the last call.
   void match(std::span<const CameraView> views, std::size_t a, std::size_t b, double max_miss_m,
              CandidatePairs& pairs, core::AcquisitionCounts& counts, WorkBudget& budget);
 
  private:
-  PlaneIndex index_;
+  const RayArrays& rays(std::span<const CameraView> views, std::size_t camera);
+
+  std::array<RayArrays, kMaxCameras> rays_;
+  CameraSet prepared_;
+  PairFilter filter_;
 };
 
 }  // namespace dottrack::acquisition

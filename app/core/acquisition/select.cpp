@@ -1,10 +1,12 @@
 #include "app/core/acquisition/select.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <limits>
 
-#include "hal/base/static_vector.h"
+#include "app/core/acquisition/assignment_tree.h"
+#include "app/core/acquisition/candidate_grid.h"
+#include "app/core/acquisition/edge_table.h"
 
 namespace dottrack::acquisition {
 namespace {
@@ -17,167 +19,207 @@ constexpr std::array<double, 3> kBoundSteps = {1.0 / 64.0, 1.0 / 8.0, 1.0};
 constexpr double kRounding = 1.0 + 1e-9;
 constexpr double kRounding_m2 = 1e-18;
 
+// Neighbours made into options before the budget is asked again.
+constexpr std::size_t kSlice = 64;
+
+// Work units, of about ten nanoseconds.
+constexpr std::uint64_t kTableUnits = 20;
+constexpr std::uint64_t kPlantUnits = 5;
+constexpr std::uint64_t kScoreUnits = 20;
+constexpr std::uint64_t kUprightUnits = 200;
+
 double squared(double v) {
   return v * v;
 }
 
-// A candidate for one dot beside the current anchor, with what it adds to the score by itself.
-struct Option {
-  std::uint16_t candidate = 0;
-  double cost_m2 = 0.0;  // its diameter and its distance to the anchor
-};
-
-using Options = StaticVector<Option, core::kMaxFinalists>;
-
 }  // namespace
+
+// What is to be done next. A bound, an anchor dot, an anchor candidate, its options and the
+// assignments with it are loops, one inside the other, that can be left and entered anywhere.
+enum class Stage : std::uint8_t { bound, anchor_dot, anchor, options, assignments, ended };
 
 struct Selector::Search {
   const TargetShape* shape = nullptr;
   std::span<const DotCandidate> candidates;
-  WorkBudget* budget = nullptr;
-  const Assignment* excluded = nullptr;
+  SelectLimits limits;
 
-  std::array<Options, core::kMaxDots> options;             // by dot; the anchor's stays empty
-  std::array<std::uint8_t, core::kMaxDots> order{};        // dots, fewest options first
-  std::array<double, core::kMaxDots + 1> least_rest_m2{};  // least cost of dots order[k..]
-  Assignment assignment{};
-  double max_score_m2 = 0.0;
+  Stage stage = Stage::ended;
+  SelectStatus status = SelectStatus::none;
+  std::size_t bound_step = 0;      // the next one
+  std::size_t anchors_before = 0;  // dots that have been the anchor: left out from now on
+  std::size_t place = 0;           // of the next anchor in the grid
+  std::size_t neighbour = 0;       // the next one to become an option
+  double anchor_cost_m2 = 0.0;
+
   double bound_m2 = 0.0;
+  double table_limit_m2 = 0.0;
   bool found = false;
   bool saw_upside_down = false;
   Selection best;
 
+  CandidateGrid grid;
+  EdgeTable table;
+  Neighbours neighbours;
+  AssignmentTree tree;
+
   // What a partial score may be at most, rounding included.
   double limit_m2() const { return bound_m2 * kRounding + kRounding_m2; }
+  std::size_t anchor_dot() const { return shape->anchors[anchors_before]; }
+  std::uint16_t anchor() const { return grid.candidate(place); }
 
-  // The whole search below one bound; false when the budget ran out.
-  bool run(double bound);
-  void try_anchor(std::uint16_t candidate);
-  bool collect_options(std::uint16_t anchor, double anchor_cost);
-  void order_dots();
-  void extend(std::size_t depth, double cost);
-  double cost_beside_chosen(std::size_t depth, std::uint8_t dot, const Option& option,
-                            double cost) const;
-  bool taken(std::size_t depth, std::uint16_t candidate) const;
-  void judge();
+  void step(WorkBudget& budget);
+  void next_bound(WorkBudget& budget);
+  void next_anchor_dot(WorkBudget& budget);
+  void build_table(WorkBudget& budget);
+  void next_anchor(WorkBudget& budget);
+  void leave_anchor();
+  void make_options(WorkBudget& budget);
+  void walk(WorkBudget& budget);
+  void judge(const Assignment& assignment, WorkBudget& budget);
 };
 
-bool Selector::Search::run(double bound) {
-  bound_m2 = bound;
-  for (std::size_t c = 0; c < candidates.size(); ++c) {
-    if (!budget->spend(1 + candidates.size() / 8)) return false;
-    try_anchor(static_cast<std::uint16_t>(c));
-    if (budget->exhausted()) return false;
-  }
-  return true;
-}
-
-void Selector::Search::try_anchor(std::uint16_t candidate) {
-  const double cost = squared(candidates[candidate].diameter_m - shape->diameter_m[shape->anchor]);
-  if (cost > limit_m2() || !collect_options(candidate, cost)) return;
-  order_dots();
-  assignment[shape->anchor] = candidate;
-  extend(0, cost);
-}
-
-// False when some dot has no candidate at its distance from the anchor.
-bool Selector::Search::collect_options(std::uint16_t anchor, double anchor_cost) {
-  for (std::size_t dot = 0; dot < shape->dots; ++dot) options[dot].clear();
-  const auto& edges = shape->distance_m[shape->anchor];
-  const double spare = limit_m2() - anchor_cost;
-  const double tolerance = std::sqrt(spare);
-  const double longest =
-      *std::max_element(edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(shape->dots));
-  const double reach2 = squared(longest + tolerance);
-  const Eigen::Vector3d& origin = candidates[anchor].position_m;
-  for (std::size_t c = 0; c < candidates.size(); ++c) {
-    const double distance2 = (candidates[c].position_m - origin).squaredNorm();
-    if (distance2 > reach2 || c == anchor) continue;
-    const double distance = std::sqrt(distance2);
-    for (std::size_t dot = 0; dot < shape->dots; ++dot) {
-      const double off = std::abs(distance - edges[dot]);
-      if (off > tolerance || dot == shape->anchor) continue;
-      const double cost = off * off + squared(candidates[c].diameter_m - shape->diameter_m[dot]);
-      if (cost <= spare) options[dot].push_back({static_cast<std::uint16_t>(c), cost});
-    }
-  }
-  for (std::size_t dot = 0; dot < shape->dots; ++dot) {
-    if (dot != shape->anchor && options[dot].empty()) return false;
-  }
-  return true;
-}
-
-void Selector::Search::order_dots() {
-  std::size_t n = 0;
-  for (std::size_t dot = 0; dot < shape->dots; ++dot) {
-    if (dot != shape->anchor) order[n++] = static_cast<std::uint8_t>(dot);
-  }
-  std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(n), [this](auto a, auto b) {
-    const std::size_t size_a = options[a].size();
-    const std::size_t size_b = options[b].size();
-    return size_a != size_b ? size_a < size_b : a < b;
-  });
-  least_rest_m2[n] = 0.0;
-  for (std::size_t k = n; k-- > 0;) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Option& option : options[order[k]]) least = std::min(least, option.cost_m2);
-    least_rest_m2[k] = least_rest_m2[k + 1] + least;
+void Selector::Search::step(WorkBudget& budget) {
+  switch (stage) {
+    case Stage::bound:
+      return next_bound(budget);
+    case Stage::anchor_dot:
+      return next_anchor_dot(budget);
+    case Stage::anchor:
+      return next_anchor(budget);
+    case Stage::options:
+      return make_options(budget);
+    case Stage::assignments:
+      return walk(budget);
+    case Stage::ended:
+      return;
   }
 }
 
-bool Selector::Search::taken(std::size_t depth, std::uint16_t candidate) const {
-  for (std::size_t k = 0; k < depth; ++k) {
-    if (assignment[order[k]] == candidate) return true;
-  }
-  return false;
-}
-
-// The partial score with this option added; stops adding once it exceeds the bound.
-double Selector::Search::cost_beside_chosen(std::size_t depth, std::uint8_t dot,
-                                            const Option& option, double cost) const {
-  double total = cost + option.cost_m2;
-  const double limit = limit_m2() - least_rest_m2[depth + 1];
-  const Eigen::Vector3d& position = candidates[option.candidate].position_m;
-  for (std::size_t k = 0; k < depth && total <= limit; ++k) {
-    const std::uint8_t other = order[k];
-    const double distance = (candidates[assignment[other]].position_m - position).norm();
-    total += squared(distance - shape->distance_m[dot][other]);
-  }
-  return total <= limit ? total : std::numeric_limits<double>::infinity();
-}
-
-void Selector::Search::extend(std::size_t depth, double cost) {
-  if (depth + 1 == shape->dots) {
-    judge();
+void Selector::Search::next_bound(WorkBudget& budget) {
+  if (found || bound_step == kBoundSteps.size()) {
+    status = found             ? SelectStatus::found
+             : saw_upside_down ? SelectStatus::only_upside_down
+                               : SelectStatus::none;
+    stage = Stage::ended;
     return;
   }
-  const std::uint8_t dot = order[depth];
-  if (!budget->spend(options[dot].size())) return;
-  for (const Option& option : options[dot]) {
-    const double total = cost_beside_chosen(depth, dot, option, cost);
-    if (total > limit_m2() || taken(depth, option.candidate)) continue;
-    assignment[dot] = option.candidate;
-    extend(depth + 1, total);
-    if (budget->exhausted()) return;
+  bound_m2 = kBoundSteps[bound_step++] * limits.max_score_m2;
+  const double tolerance_m = std::sqrt(limit_m2()) * kRounding;
+  const auto diameters = std::span(shape->diameter_m).first(shape->dots);
+  const auto& edges_m = shape->distance_m[shape->anchors[0]];
+  grid.build(candidates, *std::min_element(diameters.begin(), diameters.end()) - tolerance_m,
+             *std::max_element(diameters.begin(), diameters.end()) + tolerance_m,
+             *std::max_element(edges_m.begin(), edges_m.end()) + tolerance_m);
+  budget.spend(1 + candidates.size());
+  anchors_before = 0;
+  stage = Stage::anchor_dot;
+}
+
+void Selector::Search::next_anchor_dot(WorkBudget& budget) {
+  if (anchors_before + limits.dots > shape->dots) {
+    stage = Stage::bound;
+    return;
+  }
+  build_table(budget);
+  place = 0;
+  stage = Stage::anchor;
+}
+
+// Of the edges from the anchor dot to those that have not been the anchor.
+void Selector::Search::build_table(WorkBudget& budget) {
+  DotSet ends = 0;
+  for (std::size_t i = anchors_before + 1; i < shape->dots; ++i) {
+    ends |= static_cast<DotSet>(1U << shape->anchors[i]);
+  }
+  table_limit_m2 = limit_m2();
+  table.build(*shape, anchor_dot(), ends,
+              std::sqrt(table_limit_m2) * kRounding + grid.rounding_m());
+  budget.spend(kTableUnits);
+}
+
+// Goes through the candidates to the next that has neighbours enough to be the anchor.
+void Selector::Search::next_anchor(WorkBudget& budget) {
+  const double diameter_m = shape->diameter_m[anchor_dot()];
+  const auto enough = static_cast<int>(limits.dots - 1);
+  for (; place < grid.size() && !budget.exhausted(); ++place) {
+    anchor_cost_m2 = squared(candidates[anchor()].diameter_m - diameter_m);
+    budget.spend(1);
+    if (!(anchor_cost_m2 <= limit_m2())) continue;
+    if (limit_m2() < table_limit_m2) build_table(budget);
+    grid.neighbours(place, table, neighbours);
+    budget.spend(2 + neighbours.looked / 4);
+    if (std::popcount(neighbours.dots) < enough) continue;
+    tree.set_anchor(anchor_dot(), anchor(), anchor_cost_m2);
+    neighbour = 0;
+    stage = Stage::options;
+    return;
+  }
+  if (place < grid.size()) return;
+  ++anchors_before;
+  stage = Stage::anchor_dot;
+}
+
+void Selector::Search::make_options(WorkBudget& budget) {
+  const auto& edges_m = shape->distance_m[anchor_dot()];
+  const Eigen::Vector3d& origin_m = candidates[anchor()].position_m;
+  const double spare_m2 = limit_m2() - anchor_cost_m2;
+  const std::size_t end = std::min(neighbours.size, neighbour + kSlice);
+  budget.spend(2 * (end - neighbour));
+  for (; neighbour < end; ++neighbour) {
+    const Neighbour& near = neighbours.list[neighbour];
+    const std::uint16_t c = grid.candidate(near.place);
+    const double distance_m = (candidates[c].position_m - origin_m).norm();
+    for (unsigned dots = near.dots; dots != 0; dots &= dots - 1U) {
+      const auto dot = static_cast<std::size_t>(std::countr_zero(dots));
+      const double cost_m2 = squared(distance_m - edges_m[dot]) +
+                             squared(candidates[c].diameter_m - shape->diameter_m[dot]);
+      if (cost_m2 <= spare_m2) tree.add(dot, {c, cost_m2});
+    }
+  }
+  if (neighbour < neighbours.size) return;
+  budget.spend(kPlantUnits);
+  if (tree.plant(limit_m2())) {
+    stage = Stage::assignments;
+  } else {
+    leave_anchor();
   }
 }
 
-void Selector::Search::judge() {
-  const double score = match_score(*shape, candidates, assignment);
-  if (score > bound_m2 || (excluded != nullptr && assignment == *excluded)) return;
-  const bool first =
-      !found || score < best.score_m2 || (score == best.score_m2 && assignment < best.assignment);
+void Selector::Search::leave_anchor() {
+  ++place;
+  stage = Stage::anchor;
+}
+
+void Selector::Search::walk(WorkBudget& budget) {
+  switch (tree.walk(limit_m2(), budget)) {
+    case AssignmentTree::Step::leaf:
+      return judge(tree.assignment(), budget);
+    case AssignmentTree::Step::ended:
+      return leave_anchor();
+    case AssignmentTree::Step::work_budget:
+      return;
+  }
+}
+
+void Selector::Search::judge(const Assignment& assignment, WorkBudget& budget) {
+  budget.spend(kScoreUnits);
+  const double score_m2 = match_score(*shape, candidates, assignment);
+  if (!(score_m2 <= bound_m2)) return;
+  if (limits.excluded != nullptr &&
+      std::equal(assignment.begin(), assignment.begin() + static_cast<std::ptrdiff_t>(shape->dots),
+                 limits.excluded->begin())) {
+    return;
+  }
+  const bool first = !found || score_m2 < best.score_m2 || assignment < best.assignment;
   if (!first || !passes_variance_test(*shape, candidates, assignment)) return;
-  budget->spend(100);
+  budget.spend(kUprightUnits);
   if (!passes_upright_test(*shape, candidates, assignment)) {
     saw_upside_down = true;
     return;
   }
   found = true;
-  best.assignment = assignment;
-  best.score_m2 = score;
-  best.dots = static_cast<std::uint8_t>(shape->dots);
-  bound_m2 = score;
+  best = {assignment, score_m2, static_cast<std::uint8_t>(limits.dots)};
+  bound_m2 = score_m2;
 }
 
 Selector::Selector() : search_(std::make_unique<Search>()) {}
@@ -192,24 +234,25 @@ void Selector::start(const TargetShape& shape, std::span<const DotCandidate> can
   Search& search = *search_;
   search.shape = &shape;
   search.candidates = candidates.first(std::min(candidates.size(), core::kMaxFinalists));
-  search.excluded = limits.excluded;
-  search.max_score_m2 = limits.max_score_m2;
-  search.assignment.fill(kNoCandidate);
+  search.limits = limits;
   search.found = false;
   search.saw_upside_down = false;
+  search.bound_step = 0;
+  search.status = SelectStatus::none;
+  const bool possible = limits.dots >= core::kMinDots && limits.dots <= shape.dots &&
+                        limits.dots <= search.candidates.size() && limits.max_score_m2 >= 0.0;
+  search.stage = possible ? Stage::bound : Stage::ended;
+  if (possible) search.tree.begin(shape, search.candidates, limits.dots);
 }
 
 SelectStatus Selector::advance(WorkBudget& budget, Selection& selection) {
   Search& search = *search_;
-  search.budget = &budget;
-  if (search.candidates.size() < search.shape->dots) return SelectStatus::none;
-  for (const double step : kBoundSteps) {
-    if (!search.run(step * search.max_score_m2)) return SelectStatus::work_budget;
-    if (!search.found) continue;
-    selection = search.best;
-    return SelectStatus::found;
+  while (search.stage != Stage::ended) {
+    if (budget.exhausted()) return SelectStatus::work_budget;
+    search.step(budget);
   }
-  return search.saw_upside_down ? SelectStatus::only_upside_down : SelectStatus::none;
+  if (search.status == SelectStatus::found) selection = search.best;
+  return search.status;
 }
 
 }  // namespace dottrack::acquisition

@@ -1,16 +1,34 @@
 #include "app/core/acquisition/target_shape.h"
 
 #include <limits>
+#include <utility>
 
 namespace dottrack::acquisition {
 namespace {
 
-double sum_of_squared_edges(const TargetShape& shape, std::size_t dot) {
+// Over the edges from this dot to those that are no anchors yet.
+double sum_of_squared_edges(const TargetShape& shape, std::size_t anchors, std::size_t dot) {
   double sum = 0.0;
-  for (std::size_t k = 0; k < shape.dots; ++k) {
-    sum += shape.distance_m[dot][k] * shape.distance_m[dot][k];
+  for (std::size_t k = anchors; k < shape.dots; ++k) {
+    const double edge = shape.distance_m[dot][shape.anchors[k]];
+    sum += edge * edge;
   }
   return sum;
+}
+
+void order_anchors(TargetShape& shape) {
+  for (std::size_t i = 0; i < shape.dots; ++i) shape.anchors[i] = static_cast<std::uint8_t>(i);
+  for (std::size_t i = 0; i < shape.dots; ++i) {
+    std::size_t next = i;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = i; k < shape.dots; ++k) {
+      const double sum = sum_of_squared_edges(shape, i, shape.anchors[k]);
+      if (sum >= nearest) continue;
+      nearest = sum;
+      next = k;
+    }
+    std::swap(shape.anchors[i], shape.anchors[next]);
+  }
 }
 
 }  // namespace
@@ -26,15 +44,7 @@ TargetShape make_target_shape(const core::Target& target) {
       shape.distance_m[i][j] = (target.dots[i].position_m - target.dots[j].position_m).norm();
     }
   }
-  const auto n = static_cast<double>(shape.dots);
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < shape.dots; ++i) {
-    const double sum = sum_of_squared_edges(shape, i);
-    shape.variance_m2 += sum / (2.0 * n * n);
-    if (sum >= nearest) continue;
-    nearest = sum;
-    shape.anchor = i;
-  }
+  order_anchors(shape);
   return shape;
 }
 

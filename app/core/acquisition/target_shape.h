@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 
 #include "app/core/rig.h"
 
@@ -13,8 +14,9 @@ struct TargetShape {
   std::array<Eigen::Vector3d, core::kMaxDots> position_m{};  // vehicle coordinates
   std::array<std::array<double, core::kMaxDots>, core::kMaxDots> distance_m{};
   std::array<double, core::kMaxDots> diameter_m{};
-  double variance_m2 = 0.0;  // mean squared distance of the dots from their mean
-  std::size_t anchor = 0;    // the dot whose neighbours are nearest in the mean square
+  // The dots as a search takes them for its anchor: each the one, of those that are left, whose
+  // neighbours among them are nearest in the mean square.
+  std::array<std::uint8_t, core::kMaxDots> anchors{};
   bool upright = true;
 };
 

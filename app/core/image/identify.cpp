@@ -54,13 +54,12 @@ PixelWeights band_weights(const ImageView& pixels, const Band& band) {
 
 struct Identifier::Memory {
   // Candidates are measured a few at a time: the arithmetic of one is awaited behind the others'.
-  static constexpr std::size_t kBatch = 32;
+  static constexpr std::size_t kBatch = Moments::kCapacity;
 
   void find_components(const Search& search);
   void take_rows(int y_end);
   IdentifyCounts pick_regions(const Search& search, const RegionGate& gate, Regions& regions);
-  std::size_t next_batch(const RegionGate& gate, const ImageView& pixels,
-                         const PixelWeights& weights, std::size_t& next, IdentifyCounts& counts);
+  std::size_t next_batch(const RegionGate& gate, std::size_t& next, IdentifyCounts& counts);
 
   Bitmap bitmap;
   LocalBackground background;
@@ -68,6 +67,7 @@ struct Identifier::Memory {
   Components components;
   std::array<std::uint32_t, kBatch> batch;
   std::array<RegionSums, kBatch> batch_sums;
+  Moments moments;
 };
 
 Identifier::Identifier() : memory_(std::make_unique<Memory>()) {}
@@ -99,37 +99,39 @@ void Identifier::Memory::find_components(const Search& search) {
   take_rows(height);
 }
 
-// The sums of the next candidates that the cheap gates let through; returns how many.
-std::size_t Identifier::Memory::next_batch(const RegionGate& gate, const ImageView& pixels,
-                                           const PixelWeights& weights, std::size_t& next,
+// The next candidates that the cheap gates let through; returns how many.
+std::size_t Identifier::Memory::next_batch(const RegionGate& gate, std::size_t& next,
                                            IdentifyCounts& counts) {
   std::size_t count = 0;
   for (; next < components.size() && count < kBatch; ++next) {
     if (!components.is_root(next)) continue;
-    const Component& component = components[next];
     ++counts.components;
-    if (excludes_size(gate, component)) {
+    if (excludes_size(gate, components[next])) {
       ++counts.rejected_size;
       continue;
     }
-    batch[count] = static_cast<std::uint32_t>(next);
-    batch_sums[count++] = sum_region(pixels, weights.values, runs, components, component);
+    batch[count++] = static_cast<std::uint32_t>(next);
   }
   return count;
 }
 
 IdentifyCounts Identifier::Memory::pick_regions(const Search& search, const RegionGate& gate,
                                                 Regions& regions) {
+  const ImageView pixels = search.pixels();
+  const core::Polarity polarity = search.band.polarity;
   const PixelWeights weights = search.has_background() ? PixelWeights{background.excess(), 1, 0}
-                                                       : band_weights(search.pixels(), search.band);
+                                                       : band_weights(pixels, search.band);
   IdentifyCounts counts;
   counts.runs = static_cast<std::uint32_t>(runs.size());
   counts.overflow_runs = runs.overflow();
   std::size_t next = 0;
-  while (const std::size_t count = next_batch(gate, search.pixels(), weights, next, counts)) {
+  while (const std::size_t count = next_batch(gate, next, counts)) {
+    sum_regions({pixels, weights.values, polarity, runs, components}, {batch.data(), count},
+                batch_sums.data());
+    measure({batch_sums.data(), count}, weights, moments);
     for (std::size_t i = 0; i < count; ++i) {
-      const Region region = region_of(search.image, search.window, search.band.polarity, weights,
-                                      components[batch[i]], batch_sums[i]);
+      const Region region = region_of(search.image, search.window, polarity, components[batch[i]],
+                                      batch_sums[i], moments, i);
       if (!passes_size(gate, region)) {
         ++counts.rejected_size;
       } else if (!passes_shape(gate, region)) {

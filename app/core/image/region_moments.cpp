@@ -1,39 +1,10 @@
 #include "app/core/image/region_moments.h"
 
 #include <algorithm>
-#include <cmath>
-
-#include "app/core/image/arc_tangent.h"
 
 namespace dottrack::image {
 
 namespace {
-
-void set_centroid(Region& region, const RegionSums& sums, const PixelWeights& weights) {
-  const std::int64_t sign = weights.sign;
-  const std::int64_t offset = weights.offset;
-  const double per_weight = 1.0 / static_cast<double>(sign * sums.v + offset * sums.n);
-  const auto x = static_cast<double>(sign * sums.vx + offset * sums.x);
-  const auto y = static_cast<double>(sign * sums.vy + offset * sums.y);
-  region.centroid_px = {region.x_min + x * per_weight, region.y_min + y * per_weight};
-}
-
-// A uniform ellipse has variance a^2 / 4 along its semi-axis a; a pixel is a unit square, which
-// adds 1/12 each way.
-void set_ellipse(Region& region, const RegionSums& sums) {
-  const double per_pixel = 1.0 / static_cast<double>(sums.n);
-  const double x = static_cast<double>(sums.x) * per_pixel;
-  const double y = static_cast<double>(sums.y) * per_pixel;
-  const double xx = static_cast<double>(sums.xx) * per_pixel - x * x;
-  const double xy = static_cast<double>(sums.xy) * per_pixel - x * y;
-  const double yy = static_cast<double>(sums.yy) * per_pixel - y * y;
-  const double middle = 0.5 * (xx + yy);
-  const double half_difference = 0.5 * (xx - yy);
-  const double radius = std::sqrt(half_difference * half_difference + xy * xy);
-  region.semi_major_px = 2.0 * std::sqrt(middle + radius + 1.0 / 12.0);
-  region.semi_minor_px = 2.0 * std::sqrt(std::max(middle - radius, 0.0) + 1.0 / 12.0);
-  region.angle_rad = 0.5 * arc_tangent(xy, half_difference);
-}
 
 void set_box(Region& region, const Component& component, const Window& window) {
   region.area_px = component.area_px;
@@ -77,15 +48,16 @@ double core_contrast(const ImageView& image, const Eigen::Vector2d& centroid, in
 }  // namespace
 
 Region region_of(const ImageView& image, const Window& window, core::Polarity polarity,
-                 const PixelWeights& weights, const Component& component, const RegionSums& sums) {
+                 const Component& component, const RegionSums& sums, const Moments& moments,
+                 std::size_t i) {
   Region region;
   set_box(region, component, window);
   region.saturated_px = static_cast<int>(sums.saturated);
-  set_centroid(region, sums, weights);
-  set_ellipse(region, sums);
-  const bool bright = polarity == core::Polarity::bright;
-  region.core_contrast_dn =
-      core_contrast(image, region.centroid_px, bright ? sums.darkest : sums.brightest, polarity);
+  region.centroid_px = {region.x_min + moments.x[i], region.y_min + moments.y[i]};
+  region.semi_major_px = moments.semi_major[i];
+  region.semi_minor_px = moments.semi_minor[i];
+  region.angle_rad = moments.angle_rad[i];
+  region.core_contrast_dn = core_contrast(image, region.centroid_px, sums.faintest_dn, polarity);
   return region;
 }
 

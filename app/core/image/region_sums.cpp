@@ -10,6 +10,8 @@
 // After foreach_target.h, by its rules.
 #include <hwy/highway.h>
 
+#include "app/core/image/narrow_sums-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace dottrack::image {
 namespace HWY_NAMESPACE {
@@ -55,10 +57,10 @@ class ProductSum {
 // The sums of a region in lanes; moved to 64 bits before they could overflow.
 class LaneSums {
  public:
-  HWY_INLINE LaneSums() : brightest_(hn::Zero(kLanes)), darkest_inverse_(hn::Zero(kLanes)) {}
+  HWY_INLINE LaneSums() : faintest_(hn::Zero(kLanes)) {}
 
   // `inside` has ones in the lanes that are pixels of the region, zeros elsewhere.
-  HWY_INLINE void add(Vector x, Vector y, Vector inside, Vector pixel, Vector value) {
+  HWY_INLINE void add(Vector x, Vector y, Vector inside, Vector pixel, Vector value, Vector flip) {
     const auto one = hn::Set(kLanes, 1);
     x = hn::And(x, inside);
     y = hn::And(y, inside);
@@ -73,9 +75,7 @@ class LaneSums {
     vx_.add(value, x);
     vy_.add(value, y);
     saturated_.add(hn::And(saturated, inside), hn::Set(kLanes, -1));
-    const auto inverse = hn::Xor(pixel, hn::Set(kLanes, 255));
-    brightest_ = hn::Max(brightest_, hn::And(pixel, inside));
-    darkest_inverse_ = hn::Max(darkest_inverse_, hn::And(inverse, inside));
+    faintest_ = hn::Max(faintest_, hn::And(hn::Xor(pixel, flip), inside));
     if (++steps_ == kMaxSteps) [[unlikely]] {
       flush();
     }
@@ -94,11 +94,10 @@ class LaneSums {
     steps_ = 0;
   }
 
-  // All that was added, with n left to fill in.
+  // All that was added, with n and the sense of the faintest pixel left open.
   HWY_INLINE RegionSums finish() {
     flush();
-    sums_.brightest = hn::GetLane(hn::MaxOfLanes(kLanes, brightest_));
-    sums_.darkest = 255 - hn::GetLane(hn::MaxOfLanes(kLanes, darkest_inverse_));
+    sums_.faintest_dn = hn::GetLane(hn::MaxOfLanes(kLanes, faintest_));
     return sums_;
   }
 
@@ -111,8 +110,7 @@ class LaneSums {
 
   RegionSums sums_;
   ProductSum x_, y_, xx_, xy_, yy_, v_, vx_, vy_, saturated_;
-  Vector brightest_;
-  Vector darkest_inverse_;
+  Vector faintest_;  // as far from the polarity's end as it goes
   int steps_ = 0;
 };
 
@@ -120,26 +118,45 @@ HWY_INLINE Vector all(int value) {
   return hn::Set(kLanes, static_cast<std::int16_t>(value));
 }
 
-RegionSums sum_runs(const ImageView& pixels, const ImageView& values, const RunList& runs,
-                    const Components& components, const Component& component) {
+RegionSums sum_wide(const SumsOf& of, const Component& component) {
   const auto lane = hn::Iota(kLanes, 0);
+  const bool bright = of.polarity == core::Polarity::bright;
+  const auto flip = all(bright ? 255 : 0);
   LaneSums lanes;
-  for (std::uint32_t i = component.head; i != Components::kEnd; i = components.next_run(i)) {
-    const int x = column(runs[i].first);
-    const int y = row(runs[i].first);
-    const int n = runs[i].last - runs[i].first + 1;
-    const int room = pixels.width_px - x;
+  for (std::uint32_t i = component.head; i != Components::kEnd; i = of.components.next_run(i)) {
+    const int x = column(of.runs[i].first);
+    const int y = row(of.runs[i].first);
+    const int n = of.runs[i].last - of.runs[i].first + 1;
+    const int room = of.pixels.width_px - x;
     for (int k = 0; k < n; k += kStep) {
       const int count = std::min(n - k, kStep);
       lanes.add(hn::Add(lane, all(x + k - component.x_min)), all(y - component.y_min),
                 hn::VecFromMask(kLanes, hn::Lt(lane, all(count))),
-                load(pixels.row(y) + x + k, count, room - k),
-                load(values.row(y) + x + k, count, room - k));
+                load(of.pixels.row(y) + x + k, count, room - k),
+                load(of.values.row(y) + x + k, count, room - k), flip);
     }
   }
   RegionSums sums = lanes.finish();
   sums.n = component.area_px;
+  if (bright) sums.faintest_dn = 255 - sums.faintest_dn;
   return sums;
+}
+
+RegionSums sum_component(const SumsOf& of, const Component& component) {
+#if HWY_TARGET != HWY_SCALAR  // one lane holds no columns
+  const int width_px = of.pixels.width_px;
+  if (const int x = narrow::first_column(component, width_px, 1); x >= 0) {
+    return narrow::sum<1>(of, component, x);
+  }
+  if (const int x = narrow::first_column(component, width_px, 2); x >= 0) {
+    return narrow::sum<2>(of, component, x);
+  }
+#endif
+  return sum_wide(of, component);
+}
+
+void sum_all(const SumsOf& of, std::span<const std::uint32_t> which, RegionSums* sums) {
+  for (const std::uint32_t i : which) *sums++ = sum_component(of, of.components[i]);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -149,11 +166,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace dottrack::image {
 
-HWY_EXPORT(sum_runs);
+HWY_EXPORT(sum_all);
 
-RegionSums sum_region(const ImageView& pixels, const ImageView& values, const RunList& runs,
-                      const Components& components, const Component& component) {
-  return HWY_DYNAMIC_DISPATCH(sum_runs)(pixels, values, runs, components, component);
+void sum_regions(const SumsOf& of, std::span<const std::uint32_t> which, RegionSums* sums) {
+  HWY_DYNAMIC_DISPATCH(sum_all)(of, which, sums);
 }
 
 }  // namespace dottrack::image

@@ -1,8 +1,8 @@
 #pragma once
-// The paper's selection as it is written: every subset of n finalists, every permutation of each.
+// The paper's selection as it is written: every subset of n finalists, every permutation of each;
+// and, where only some of the target's dots are to be matched, every subset of those, too.
 
 #include <algorithm>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,10 +10,12 @@
 
 namespace dottrack::acquisition::test {
 
+using Subset = std::vector<std::uint16_t>;
+
 // Calls visit(subset) for every n of the numbers 0 .. total-1, ascending.
 template <class Visit>
-void for_every_subset(std::size_t total, std::size_t n, std::vector<std::uint16_t>& chosen,
-                      std::size_t from, const Visit& visit) {
+void for_every_subset(std::size_t total, std::size_t n, Subset& chosen, std::size_t from,
+                      const Visit& visit) {
   if (chosen.size() == n) {
     visit(chosen);
     return;
@@ -25,32 +27,52 @@ void for_every_subset(std::size_t total, std::size_t n, std::vector<std::uint16_
   }
 }
 
-// The best-scoring permutation over all subsets that pass the paper's tests; of equal scores the
-// lexicographically first; none when the best score is above max_score.
-inline std::optional<Selection> brute_force(const TargetShape& shape,
-                                            std::span<const DotCandidate> candidates,
-                                            double max_score_m2) {
-  std::optional<Selection> best;
-  std::vector<std::uint16_t> chosen;
-  for_every_subset(
-      candidates.size(), shape.dots, chosen, 0, [&](std::vector<std::uint16_t> subset) {
-        do {
-          Selection trial;
-          std::copy(subset.begin(), subset.end(), trial.assignment.begin());
-          trial.score_m2 = match_score(shape, candidates, trial.assignment);
-          if (trial.score_m2 > max_score_m2) continue;
-          if (best && (trial.score_m2 > best->score_m2 || (trial.score_m2 == best->score_m2 &&
-                                                           trial.assignment >= best->assignment))) {
-            continue;
-          }
-          if (!passes_variance_test(shape, candidates, trial.assignment) ||
-              !passes_upright_test(shape, candidates, trial.assignment)) {
-            continue;
-          }
-          best = trial;
-        } while (std::next_permutation(subset.begin(), subset.end()));
-      });
-  return best;
+// The best-scoring assignment so far, of equal scores the lexicographically first.
+struct BruteForce {
+  const TargetShape& shape;
+  std::span<const DotCandidate> candidates;
+  SelectLimits limits;
+  SelectStatus status = SelectStatus::none;
+  Selection best = {};
+
+  void judge(const Assignment& assignment) {
+    const double score_m2 = match_score(shape, candidates, assignment);
+    if (score_m2 > limits.max_score_m2) return;
+    const bool found = status == SelectStatus::found;
+    if (found && (score_m2 > best.score_m2 ||
+                  (score_m2 == best.score_m2 && assignment >= best.assignment))) {
+      return;
+    }
+    if (limits.excluded != nullptr && assignment == *limits.excluded) return;
+    if (!passes_variance_test(shape, candidates, assignment)) return;
+    if (passes_upright_test(shape, candidates, assignment)) {
+      status = SelectStatus::found;
+      best = {assignment, score_m2, static_cast<std::uint8_t>(limits.dots)};
+    } else if (!found) {
+      status = SelectStatus::only_upside_down;
+    }
+  }
+
+  void judge_permutations(const Subset& dots, Subset chosen) {
+    do {
+      Assignment assignment;
+      assignment.fill(kNoCandidate);
+      for (std::size_t i = 0; i < dots.size(); ++i) assignment[dots[i]] = chosen[i];
+      judge(assignment);
+    } while (std::next_permutation(chosen.begin(), chosen.end()));
+  }
+};
+
+inline BruteForce brute_force(const TargetShape& shape, std::span<const DotCandidate> candidates,
+                              const SelectLimits& limits) {
+  BruteForce search{shape, candidates, limits};
+  Subset dots;
+  for_every_subset(shape.dots, limits.dots, dots, 0, [&](const Subset& of_dots) {
+    Subset chosen;
+    for_every_subset(candidates.size(), limits.dots, chosen, 0,
+                     [&](const Subset& subset) { search.judge_permutations(of_dots, subset); });
+  });
+  return search;
 }
 
 }  // namespace dottrack::acquisition::test

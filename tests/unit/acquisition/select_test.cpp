@@ -2,17 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
-#include <random>
 
-#include "tests/unit/acquisition/brute_force.h"
+#include "tests/unit/acquisition/select_scene.h"
 
 namespace dottrack::acquisition {
 namespace {
 
 using Eigen::Vector3d;
+using test::SelectScene;
 
 constexpr std::uint64_t kPlenty = 1'000'000'000;
 
@@ -25,123 +23,11 @@ SelectStatus select(Selector& selector, const TargetShape& shape,
   return selector.advance(budget, selection);
 }
 
-class Scene {
- public:
-  explicit Scene(unsigned seed) : random_(seed) {}
-
-  core::Target target(std::size_t n, bool upright) {
-    core::Target t;
-    t.upright = upright;
-    for (std::size_t i = 0; i < n; ++i) t.dots.push_back({vector({0.5, 0.4, 0.1}), 0.1, {}});
-    return t;
-  }
-
-  // The target's dots, moved upright somewhere, with noise; then clutter around them.
-  std::vector<DotCandidate> scene(const core::Target& target, std::size_t clutter, double noise_m) {
-    const Eigen::Quaterniond turn(Eigen::AngleAxisd(uniform(-3.0, 3.0), Vector3d::UnitZ()));
-    const Vector3d place = vector({3.0, 3.0, 0.3});
-    std::vector<DotCandidate> candidates;
-    for (const core::TargetDot& dot : target.dots) {
-      candidates.push_back({turn * dot.position_m + place + vector(Vector3d::Constant(noise_m)),
-                            dot.diameter_m + uniform(-noise_m, noise_m)});
-    }
-    for (std::size_t i = 0; i < clutter; ++i) {
-      candidates.push_back({place + vector({0.8, 0.8, 0.3}), 0.1 + uniform(-0.03, 0.03)});
-    }
-    std::shuffle(candidates.begin(), candidates.end(), random_);
-    return candidates;
-  }
-
-  // Candidates on a coarse grid: many distances are exactly equal.
-  std::vector<DotCandidate> grid(std::size_t n) {
-    std::vector<DotCandidate> candidates;
-    std::uniform_int_distribution<int> step(0, 3);
-    for (std::size_t i = 0; i < n; ++i) {
-      candidates.push_back({0.25 * Vector3d(step(random_), step(random_), step(random_)), 0.1});
-    }
-    return candidates;
-  }
-
-  double uniform(double a, double b) {
-    return std::uniform_real_distribution<double>(a, b)(random_);
-  }
-  Vector3d vector(const Vector3d& reach) {
-    return {uniform(-reach.x(), reach.x()), uniform(-reach.y(), reach.y()),
-            uniform(-reach.z(), reach.z())};
-  }
-
- private:
-  std::mt19937 random_;
-};
-
-// Counts the scenes in which both searches found something.
-int compare(const TargetShape& shape, std::span<const DotCandidate> candidates, double max_score) {
-  static Selector selector;
-  WorkBudget budget(kPlenty);
-  Selection fast;
-  const SelectStatus status = select(selector, shape, candidates, max_score, budget, fast);
-  const auto slow = test::brute_force(shape, candidates, max_score);
-  EXPECT_EQ(status == SelectStatus::found, slow.has_value());
-  if (status != SelectStatus::found || !slow) return 0;
-  EXPECT_EQ(fast.assignment, slow->assignment);
-  EXPECT_EQ(fast.score_m2, slow->score_m2);
-  return 1;
-}
-
-class SelectAgainstBruteForce : public testing::TestWithParam<std::size_t> {};
-
-TEST_P(SelectAgainstBruteForce, OnScenesWithTheTarget) {
-  const std::size_t n = GetParam();
-  const std::size_t clutter = n == 3 ? 25 : n == 4 ? 14 : 8;
-  Scene scene(static_cast<unsigned>(n));
-  int found = 0;
-  for (int trial = 0; trial < 60; ++trial) {
-    const core::Target target = scene.target(n, trial % 2 == 0);
-    const TargetShape shape = make_target_shape(target);
-    found +=
-        compare(shape, scene.scene(target, clutter, 0.01), largest_score(shape, 0.02, shape.dots));
-  }
-  EXPECT_GE(found, 50);
-}
-
-TEST_P(SelectAgainstBruteForce, OnScenesWithoutTheTarget) {
-  const std::size_t n = GetParam();
-  Scene scene(100 + static_cast<unsigned>(n));
-  int found = 0;
-  int none = 0;
-  for (int trial = 0; trial < 60; ++trial) {
-    const core::Target target = scene.target(n, trial % 2 == 0);
-    const TargetShape shape = make_target_shape(target);
-    const auto clutter = scene.scene(scene.target(3, true), n == 3 ? 20 : 9, 0.0);
-    const int hit = compare(shape, clutter, largest_score(shape, 0.03, shape.dots));
-    found += hit;
-    none += 1 - hit;
-  }
-  EXPECT_GE(found + none, 60);
-  EXPECT_GE(none, n == 3 ? 0 : 20);
-}
-
-TEST_P(SelectAgainstBruteForce, OnTies) {
-  const std::size_t n = GetParam();
-  Scene scene(200 + static_cast<unsigned>(n));
-  int found = 0;
-  for (int trial = 0; trial < 40; ++trial) {
-    core::Target target;
-    target.upright = false;
-    const auto corners = scene.grid(n);
-    for (const DotCandidate& corner : corners) target.dots.push_back({corner.position_m, 0.1, {}});
-    found += compare(make_target_shape(target), scene.grid(n == 3 ? 24 : n == 4 ? 16 : 11), 0.2);
-  }
-  EXPECT_GE(found, 20);
-}
-
-INSTANTIATE_TEST_SUITE_P(Dots, SelectAgainstBruteForce, testing::Values(3U, 4U, 5U));
-
 TEST(Select, FindsEveryTargetSizeInClutter) {
   Selector selector;
   int right = 0;
   for (std::size_t n = 4; n <= core::kMaxDots; ++n) {
-    Scene scene(static_cast<unsigned>(300 + n));
+    SelectScene scene(static_cast<unsigned>(300 + n));
     const core::Target target = scene.target(n, true);
     const TargetShape shape = make_target_shape(target);
     const auto candidates = scene.scene(target, 300, 0.002);
@@ -208,7 +94,7 @@ TEST(Select, RefusesASetOfTwiceTheTargetsVariance) {
 }
 
 TEST(Select, StopsAtItsBudgetAndSaysSo) {
-  Scene scene(7);
+  SelectScene scene(7);
   const core::Target target = scene.target(5, false);
   const TargetShape shape = make_target_shape(target);
   const auto candidates = scene.scene(target, 1000, 0.05);
@@ -222,7 +108,7 @@ TEST(Select, StopsAtItsBudgetAndSaysSo) {
 }
 
 TEST(Select, NeedsAsManyCandidatesAsDots) {
-  Scene scene(8);
+  SelectScene scene(8);
   const core::Target target = scene.target(4, false);
   const std::vector<DotCandidate> three(3);
   Selector selector;
@@ -233,7 +119,7 @@ TEST(Select, NeedsAsManyCandidatesAsDots) {
 }
 
 TEST(LargestScore, AdmitsEverySetWithinTheResidualLimit) {
-  Scene scene(9);
+  SelectScene scene(9);
   for (int trial = 0; trial < 500; ++trial) {
     const core::Target target = scene.target(4 + static_cast<std::size_t>(trial % 5), false);
     const TargetShape shape = make_target_shape(target);

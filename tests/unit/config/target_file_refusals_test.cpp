@@ -22,8 +22,8 @@ constexpr std::string_view kTarget =
     "3,0.3,0.9,0.8,0.14,0,0,1\n";            // 6
 
 std::string complaint_about(const std::string& text) {
-  const Result<TargetDots> dots = parse_target_text(text, "t.csv");
-  return dots ? "accepted" : dots.error().message;
+  const Result<TargetFile> file = parse_target_text(text, "t.csv");
+  return file ? "accepted" : file.error().message;
 }
 
 class TargetFileRefuses : public testing::TestWithParam<Mistake> {};
@@ -140,9 +140,9 @@ TEST(TargetFileRefusesLines, FiveNearlyOnALine) {
 
 TEST(TargetFileRefusesFiles, NoSuchFile) {
   const test::TemporaryFolder folder;
-  const Result<TargetDots> dots = read_target_file(folder.path() / "none.csv");
-  ASSERT_FALSE(dots.has_value());
-  EXPECT_EQ(dots.error().message, (folder.path() / "none.csv").string() +
+  const Result<TargetFile> file = read_target_file(folder.path() / "none.csv");
+  ASSERT_FALSE(file.has_value());
+  EXPECT_EQ(file.error().message, (folder.path() / "none.csv").string() +
                                       ": no such file; expected a target file with the header "
                                       "dot,x_m,y_m,z_m,diameter_m");
 }

@@ -8,9 +8,9 @@ namespace dottrack::config {
 namespace {
 
 TargetDots parse_or_fail(const std::string& text) {
-  Result<TargetDots> dots = parse_target_text(text, "target.csv");
-  if (!dots) throw std::runtime_error(dots.error().message);
-  return *dots;
+  Result<TargetFile> file = parse_target_text(text, "target.csv");
+  if (!file) throw std::runtime_error(file.error().message);
+  return file->dots;
 }
 
 TEST(TargetFile, ReadsPositionsAndDiameters) {
@@ -78,9 +78,11 @@ TEST(TargetFile, ReadsTheFile) {
   const auto path = folder.write("rover.csv",
                                  "dot,x_m,y_m,z_m,diameter_m\n"
                                  "0,0,0,0.5,0.1\n1,1,0,0.5,0.1\n2,0,0.7,0.6,0.1\n");
-  const Result<TargetDots> dots = read_target_file(path);
-  ASSERT_TRUE(dots.has_value()) << dots.error().message;
-  EXPECT_EQ(dots->size(), 3U);
+  const Result<TargetFile> file = read_target_file(path);
+  ASSERT_TRUE(file.has_value()) << file.error().message;
+  EXPECT_EQ(file->dots.size(), 3U);
+  EXPECT_EQ(file->names, (std::vector<std::string>{"0", "1", "2"}));
+  EXPECT_EQ(file->lines, (std::vector<std::size_t>{2, 3, 4}));
 }
 
 }  // namespace

@@ -1,0 +1,82 @@
+#include "app/core/acquisition/rigid_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace dottrack::acquisition {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix36d = Eigen::Matrix<double, 3, 6>;
+
+// Systematic errors, as parts of the residual limit; all equally probable.
+constexpr std::array<double, 5> kSystematicParts = {0.01, 0.025, 0.065, 0.16, 0.4};
+
+constexpr double kLogTwoPi = 1.8378770664093453;
+
+constexpr double kImpossible = -std::numeric_limits<double>::infinity();
+
+Matrix36d pose_jacobian(const Vector3d& arm) {
+  Matrix36d j;
+  j << 1.0, 0.0, 0.0, 0.0, arm.z(), -arm.y(),  //
+      0.0, 1.0, 0.0, -arm.z(), 0.0, arm.x(),   //
+      0.0, 0.0, 1.0, arm.y(), -arm.x(), 0.0;
+  return j;
+}
+
+Vector3d middle_of(std::span<const RigidDot> dots) {
+  Vector3d sum = Vector3d::Zero();
+  for (const RigidDot& dot : dots) sum += dot.arm_m;
+  return sum / static_cast<double>(dots.size());
+}
+
+// log_fit with one systematic error. The integral of a normal distribution over the six
+// coordinates of the pose, that the errors are linear in.
+double log_fit_at(std::span<const RigidDot> dots, const Vector3d& middle_m, double systematic_m) {
+  Matrix6d information = Matrix6d::Zero();
+  Vector6d gradient = Vector6d::Zero();
+  double chi2 = 0.0;
+  double log_det = 0.0;
+  for (const RigidDot& dot : dots) {
+    const Matrix3d covariance =
+        dot.covariance_m2 + systematic_m * systematic_m * Matrix3d::Identity();
+    const Eigen::LLT<Matrix3d> root(covariance);
+    if (root.info() != Eigen::Success) return kImpossible;
+    const Matrix36d j = root.matrixL().solve(pose_jacobian(dot.arm_m - middle_m));
+    const Vector3d error = root.matrixL().solve(dot.error_m);
+    information += j.transpose() * j;
+    gradient += j.transpose() * error;
+    chi2 += error.squaredNorm();
+    log_det += 2.0 * root.matrixLLT().diagonal().array().log().sum();
+  }
+  const Eigen::LLT<Matrix6d> root(information);
+  if (root.info() != Eigen::Success) return kImpossible;
+  chi2 -= root.matrixL().solve(gradient).squaredNorm();
+  log_det += 2.0 * root.matrixLLT().diagonal().array().log().sum();
+  const auto freedom = 3.0 * static_cast<double>(dots.size()) - 6.0;
+  return -0.5 * (chi2 + log_det + freedom * kLogTwoPi);
+}
+
+}  // namespace
+
+double log_fit(std::span<const RigidDot> dots, double max_rms_residual_m) {
+  if (dots.size() < 3) return kImpossible;
+  const Vector3d middle_m = middle_of(dots);
+  std::array<double, kSystematicParts.size()> logs{};
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    logs[i] = log_fit_at(dots, middle_m, kSystematicParts[i] * max_rms_residual_m);
+  }
+  const double largest = *std::max_element(logs.begin(), logs.end());
+  if (!std::isfinite(largest)) return kImpossible;
+  double sum = 0.0;
+  for (const double l : logs) sum += std::exp(l - largest);
+  return largest + std::log(sum / static_cast<double>(logs.size()));
+}
+
+}  // namespace dottrack::acquisition

@@ -1,0 +1,42 @@
+#pragma once
+// One camera's rays in a pencil, in the order of their angle: those near an angle lie together.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "app/core/acquisition/pencil.h"
+
+namespace dottrack::acquisition {
+
+struct SortedRays {
+  // Positions in the order.
+  struct Window {
+    std::size_t first = 0;
+    std::size_t last = 0;  // one beyond
+  };
+
+  // All rays within half_width of the angle; some others come along, none is missed.
+  Window window(float around, float half_width) const;
+
+  alignas(32) FloatArray angle{};
+  alignas(32) FloatArray cotangent{};
+  alignas(32) FloatArray half_width{};
+  alignas(32) FloatArray low{};
+  alignas(32) FloatArray high{};
+  std::array<std::uint16_t, core::kMaxRegions> index{};  // among the camera's sightings
+  std::size_t size = 0;
+
+  static constexpr std::size_t kBuckets = 512;
+  int bucket(float at) const;
+  std::array<std::uint16_t, kBuckets + 1> start{};
+  std::array<std::uint16_t, core::kMaxRegions> bucket_of{};
+  float least_angle = 0.0F;
+  float greatest_angle = 0.0F;
+  float buckets_per_rad = 0.0F;
+};
+
+// All but the strays. Sorted coarsely, by buckets.
+void sort(const PencilRays& rays, std::size_t size, SortedRays& sorted);
+
+}  // namespace dottrack::acquisition

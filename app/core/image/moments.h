@@ -1,0 +1,33 @@
+#pragma once
+// From the sums over components' pixels to centroids and ellipses, several components at a time.
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "app/core/image/region_sums.h"
+#include "hal/base/image_view.h"
+
+namespace dottrack::image {
+
+// How much a pixel counts in its region's centroid: sign * value + offset, at least 1.
+struct PixelWeights {
+  ImageView values;  // as large as the window that was searched
+  int sign = 1;
+  int offset = 0;
+};
+
+// Lengths in pixels; x and y count from the corner of the component's bounding box.
+struct Moments {
+  static constexpr std::size_t kCapacity = 32;
+  using Column = std::array<double, kCapacity>;
+
+  Column x, y;  // centroid of the weighted pixels
+  Column semi_major, semi_minor, angle_rad;
+};
+
+// A uniform ellipse has variance a^2 / 4 along its semi-axis a; a pixel is a unit square, which
+// adds 1/12 each way. At most kCapacity sums.
+void measure(std::span<const RegionSums> sums, const PixelWeights& weights, Moments& moments);
+
+}  // namespace dottrack::image

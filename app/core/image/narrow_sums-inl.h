@@ -1,0 +1,178 @@
+// Sums over the pixels of a small component, its columns in the lanes of one vector or two.
+// Included once a target (foreach_target.h).
+
+#if defined(DOTTRACK_IMAGE_NARROW_SUMS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef DOTTRACK_IMAGE_NARROW_SUMS_INL_H_
+#undef DOTTRACK_IMAGE_NARROW_SUMS_INL_H_
+#else
+#define DOTTRACK_IMAGE_NARROW_SUMS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "app/core/image/region_sums.h"
+
+#if HWY_TARGET != HWY_SCALAR
+
+HWY_BEFORE_NAMESPACE();
+namespace dottrack::image {
+namespace HWY_NAMESPACE {
+namespace narrow {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Columns = hn::FixedTag<std::int16_t, 8>;
+using Quads = hn::FixedTag<std::int32_t, 4>;
+using Vector = hn::Vec<Columns>;
+constexpr Columns kColumns;
+constexpr Quads kQuads;
+constexpr int kVectorColumns = 8;
+// No lane exceeds 15 bits: the most is sum of y * 255 with each row once, 30600.
+constexpr int kMaxRows = 16;
+
+constexpr std::array<std::int16_t, 48> ones_from_the_middle() {
+  std::array<std::int16_t, 48> table{};
+  for (std::size_t i = 24; i < table.size(); ++i) table[i] = -1;
+  return table;
+}
+constexpr std::array<std::int16_t, 48> kStep = ones_from_the_middle();
+
+// All bits set in the lanes first <= column + lane <= last; from -8 to 23 each.
+HWY_INLINE Vector lanes_between(int column, int first, int last) {
+  return hn::AndNot(hn::LoadU(kColumns, kStep.data() + 24 + column - (last + 1)),
+                    hn::LoadU(kColumns, kStep.data() + 24 + column - first));
+}
+
+// What is gathered of eight columns, each in a lane.
+class ColumnSums {
+ public:
+  // Spelled out: a constructor of the compiler's making would be built for another processor.
+  HWY_INLINE ColumnSums()
+      : n_(hn::Zero(kColumns)), y_(n_), yy_(n_), v_(n_), vy_(n_), saturated_(n_), faintest_(n_) {}
+
+  // `inside` has all bits set in the lanes that are pixels of the component.
+  HWY_INLINE void add(int row, Vector inside, Vector pixel, Vector value, Vector flip) {
+    const auto y = hn::Set(kColumns, static_cast<std::int16_t>(row));
+    value = hn::And(value, inside);
+    n_ = hn::Sub(n_, inside);
+    y_ = hn::Add(y_, hn::And(y, inside));
+    yy_ = hn::Add(yy_, hn::And(hn::Mul(y, y), inside));
+    v_ = hn::Add(v_, value);
+    vy_ = hn::Add(vy_, hn::Mul(value, y));
+    const auto full = hn::VecFromMask(kColumns, hn::Eq(pixel, hn::Set(kColumns, 255)));
+    saturated_ = hn::Sub(saturated_, hn::And(full, inside));
+    faintest_ = hn::Max(faintest_, hn::And(hn::Xor(pixel, flip), inside));
+  }
+
+  Vector n_, y_, yy_, v_, vy_, saturated_, faintest_;
+};
+
+HWY_INLINE hn::Vec<Quads> products(Vector a, Vector b, hn::Vec<Quads> sum) {
+  auto odd = hn::Zero(kQuads);
+  sum = hn::ReorderWidenMulAccumulate(kQuads, a, b, sum, odd);
+  return hn::Add(sum, odd);
+}
+
+// The four totals, a lane each.
+HWY_INLINE hn::Vec<Quads> totals(hn::Vec<Quads> a, hn::Vec<Quads> b, hn::Vec<Quads> c,
+                                 hn::Vec<Quads> d) {
+  const auto ab = hn::Add(hn::InterleaveLower(kQuads, a, b), hn::InterleaveUpper(kQuads, a, b));
+  const auto cd = hn::Add(hn::InterleaveLower(kQuads, c, d), hn::InterleaveUpper(kQuads, c, d));
+  return hn::Add(hn::ConcatLowerLower(kQuads, cd, ab), hn::ConcatUpperUpper(kQuads, cd, ab));
+}
+
+// From the columns to the sums, with n, the moments in x and the faintest pixel's sense left open.
+template <int kVectors>
+HWY_INLINE RegionSums reduce(const ColumnSums* columns) {
+  const auto zero = hn::Zero(kQuads);
+  const auto one = hn::Set(kColumns, 1);
+  auto x = zero, xx = zero, y = zero, xy = zero, yy = zero, v = zero, vx = zero, vy = zero,
+       saturated = zero;
+  auto faintest = hn::Zero(kColumns);
+  for (int i = 0; i < kVectors; ++i) {
+    const ColumnSums& c = columns[i];
+    const auto column = hn::Iota(kColumns, static_cast<std::int16_t>(i * kVectorColumns));
+    x = products(c.n_, column, x);
+    xx = products(c.n_, hn::Mul(column, column), xx);
+    y = products(c.y_, one, y);
+    xy = products(c.y_, column, xy);
+    yy = products(c.yy_, one, yy);
+    v = products(c.v_, one, v);
+    vx = products(c.v_, column, vx);
+    vy = products(c.vy_, one, vy);
+    saturated = products(c.saturated_, one, saturated);
+    faintest = hn::Max(faintest, c.faintest_);
+  }
+  alignas(16) std::array<std::int32_t, 8> all;
+  hn::Store(totals(x, y, xx, xy), kQuads, all.data());
+  hn::Store(totals(yy, v, vx, vy), kQuads, all.data() + 4);
+  RegionSums sums;
+  sums.x = all[0];
+  sums.y = all[1];
+  sums.xx = all[2];
+  sums.xy = all[3];
+  sums.yy = all[4];
+  sums.v = all[5];
+  sums.vx = all[6];
+  sums.vy = all[7];
+  sums.saturated = hn::GetLane(hn::SumOfLanes(kQuads, saturated));
+  sums.faintest_dn = hn::GetLane(hn::MaxOfLanes(kColumns, faintest));
+  return sums;
+}
+
+// From x counted from one column to x counted from a column d further right.
+HWY_INLINE void move_origin(int d, RegionSums& sums) {
+  sums.xx += d * (d * sums.n - 2 * sums.x);
+  sums.xy -= d * sums.y;
+  sums.x -= d * sums.n;
+  sums.vx -= d * sums.v;
+}
+
+// The first column of so many vectors that they hold the component; -1 if they cannot.
+HWY_INLINE int first_column(const Component& component, int width_px, int vectors) {
+  const int columns = vectors * kVectorColumns;
+  const int first = std::min<int>(component.x_min, width_px - columns);
+  const bool fits =
+      component.y_max - component.y_min < kMaxRows && component.x_max - first < columns;
+  return fits ? first : -1;
+}
+
+template <int kVectors>
+HWY_INLINE RegionSums sum(const SumsOf& of, const Component& component, int first_column) {
+  const hn::Rebind<std::uint8_t, Columns> bytes;
+  const auto flip =
+      hn::Set(kColumns, std::int16_t{of.polarity == core::Polarity::bright ? 255 : 0});
+  ColumnSums columns[kVectors];  // not a std::array: its constructor is not of this target
+  for (std::uint32_t i = component.head; i != Components::kEnd; i = of.components.next_run(i)) {
+    const Run run = of.runs[i];
+    const int y = row(run.first);
+    const std::uint8_t* pixels = of.pixels.row(y) + first_column;
+    const std::uint8_t* values = of.values.row(y) + first_column;
+    for (int k = 0; k < kVectors; ++k) {
+      const int c = k * kVectorColumns;
+      columns[k].add(
+          y - component.y_min,
+          lanes_between(c, column(run.first) - first_column, column(run.last) - first_column),
+          hn::PromoteTo(kColumns, hn::LoadU(bytes, pixels + c)),
+          hn::PromoteTo(kColumns, hn::LoadU(bytes, values + c)), flip);
+    }
+  }
+  RegionSums sums = reduce<kVectors>(columns);
+  sums.n = component.area_px;
+  if (component.x_min != first_column) [[unlikely]] {
+    move_origin(component.x_min - first_column, sums);
+  }
+  if (of.polarity == core::Polarity::bright) sums.faintest_dn = 255 - sums.faintest_dn;
+  return sums;
+}
+
+}  // namespace narrow
+}  // namespace HWY_NAMESPACE
+}  // namespace dottrack::image
+HWY_AFTER_NAMESPACE();
+
+#endif
+#endif
