@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "app/core/acquisition/chance.h"
-#include "app/core/acquisition/finalists.h"
+#include "app/core/acquisition/finalist_search.h"
 #include "app/core/acquisition/match.h"
 
 namespace dottrack::acquisition {
@@ -11,10 +11,6 @@ namespace {
 
 // Work units in one tick; see WorkBudget.
 constexpr std::uint64_t kWorkUnits = 1'500'000;
-
-// A pair's point is looked for among finalists this many largest diameters around it: the depth of
-// a crossover is known less well than its place across the view.
-constexpr double kSearchDiameters = 2.0;
 
 // Lines of sight cross by chance in two views often, in more hardly ever: the target is looked for
 // among the finalists of many views first, then of fewer.
@@ -63,9 +59,7 @@ image::RegionGate acquisition_gate(const core::Camera& camera, const geometry::O
 
 struct Acquisition::Memory {
   std::array<CameraView, kMaxCameras> views;
-  CandidatePairs pairs;
-  Matcher matcher;
-  FinalistMerger merger;
+  FinalistSearch search;
   StaticVector<DotCandidate, core::kMaxFinalists> candidates;
   StaticVector<std::uint16_t, core::kMaxFinalists> origin;  // a candidate's index among finalists
   Selector selector;
@@ -82,7 +76,8 @@ Acquisition::Acquisition(const core::Rig& rig, std::span<const geometry::Optics>
 Acquisition::~Acquisition() = default;
 
 std::size_t Acquisition::footprint_bytes() const {
-  return sizeof(*this) + sizeof(Memory) + Selector::footprint_bytes();
+  return sizeof(*this) + sizeof(Memory) + memory_->search.footprint_bytes() +
+         Selector::footprint_bytes();
 }
 
 void Acquisition::take_sightings(std::span<const image::Regions* const> regions) {
@@ -110,25 +105,12 @@ void Acquisition::take_sightings(std::span<const image::Regions* const> regions)
 
 void Acquisition::match(core::AcquisitionCounts& counts, WorkBudget& budget) {
   const std::span<const CameraView> views(memory_->views.data(), rig_->cameras.size());
-  const double largest_m = core::largest_dot_diameter_m(rig_->target);
-  FinalistMerger& merger = memory_->merger;
-  merger.start(kSearchDiameters * largest_m);
-  for (std::size_t a = 0; a < views.size(); ++a) {
-    for (std::size_t b = a + 1; b < views.size() && !budget.exhausted(); ++b) {
-      memory_->pairs.clear();
-      memory_->matcher.match(views, a, b, largest_m, memory_->pairs, counts, budget);
-      for (const CandidatePair& pair : memory_->pairs) {
-        if (budget.exhausted()) break;
-        merger.merge(views, pair, counts, budget);
-      }
-    }
-  }
-  if (!budget.exhausted()) merger.refine(views, budget);
-  counts.finalists = static_cast<std::uint32_t>(merger.finalists().size());
+  memory_->search.start(views, core::largest_dot_diameter_m(rig_->target));
+  memory_->search.advance(2, budget, counts);
 }
 
 core::Reason Acquisition::select(int min_views, WorkBudget& budget, Selection& selection) {
-  const Finalists& finalists = memory_->merger.finalists();
+  const Finalists& finalists = memory_->search.finalists();
   auto& candidates = memory_->candidates;
   auto& origin = memory_->origin;
   candidates.clear();
@@ -151,7 +133,7 @@ core::Reason Acquisition::select(int min_views, WorkBudget& budget, Selection& s
 
 // Another labelling of the same dots is nearly as good: a symmetric target, turned round.
 bool Acquisition::has_rival_labelling(const Selection& selection, WorkBudget& budget) {
-  const Finalists& finalists = memory_->merger.finalists();
+  const Finalists& finalists = memory_->search.finalists();
   auto& candidates = memory_->candidates;
   candidates.clear();
   Assignment given;
@@ -170,7 +152,7 @@ bool Acquisition::has_rival_labelling(const Selection& selection, WorkBudget& bu
 
 core::Reason Acquisition::judge(const Selection& selection, WorkBudget& budget,
                                 AcquisitionResult& result) {
-  const Finalists& finalists = memory_->merger.finalists();
+  const Finalists& finalists = memory_->search.finalists();
   result.counts.false_lock_probability =
       std::min(1.0, chance_matches(shape_, as_span(finalists), selection));
   if (result.counts.false_lock_probability > kMaxChanceMatches ||
