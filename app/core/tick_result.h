@@ -58,6 +58,8 @@ struct CameraTick {
   std::uint32_t rejected_shape = 0;  // not a dot's shape
   std::uint32_t rejected_sight = 0;  // of the regions: at the border, or no dot could be seen so
   std::uint32_t sightings = 0;       // of the regions: taken into matching
+  // While tracking: regions in a dot's place that do not have the shape of that dot.
+  std::uint32_t rejected_ellipse = 0;
   bool overflow = false;             // a capacity was reached: some regions were left out
   bool stale = false;                // delivered the picture of the tick before again: left out
 };

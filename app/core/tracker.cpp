@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/core/acquisition/evidence.h"
+#include "app/core/acquisition/gathered_evidence.h"
 #include "app/core/estimation/motion.h"
 #include "app/core/geometry/optics.h"
 #include "app/core/image/identify.h"
@@ -151,7 +151,9 @@ Reason Tracker::Memory::acquire() {
   searcher.report(result);
   if (!ended) return Reason::work_budget;
   const Reason reason = searcher.acquisition().result().reason;
-  return reason == Reason::none || reason == Reason::ambiguous ? judge_candidate(reason) : reason;
+  if (reason == Reason::none || reason == Reason::ambiguous) return judge_candidate(reason);
+  gathered.miss();
+  return reason;
 }
 
 // A single run of tracking on the present images rejects the candidate if it rejects them (3.1.5).
@@ -161,7 +163,10 @@ Reason Tracker::Memory::judge_candidate(Reason doubt) {
   result.has_candidate = true;
   result.candidate = candidate.pose;
   const tracking::FollowResult& followed = follower.follow(frames, candidate.pose, considered_of);
-  if (followed.reason != Reason::none) return Reason::not_confirmed;
+  if (followed.reason != Reason::none) {
+    gathered.miss();
+    return Reason::not_confirmed;
+  }
   const double p = gathered.add(candidate, searcher.captured());
   result.acquisition.false_lock_probability = p;
   if (p > rig.limits.max_false_lock_probability) {

@@ -1,4 +1,4 @@
-// Match: candidate pairs between all 66 pairs of 12 cameras, and their merging into finalists.
+// Match: candidate pairs between all 66 pairs of 12 cameras, and finalists from them.
 
 #include <benchmark/benchmark.h>
 
@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "app/core/acquisition/finalists.h"
+#include "app/core/acquisition/finalist_search.h"
 #include "app/core/acquisition/match.h"
 #include "tests/bench/room_scene.h"
 
@@ -50,36 +50,66 @@ void fill(acquisition::CameraView& view, const core::Camera& camera, std::size_t
   }
 }
 
-void match(benchmark::State& state) {
-  const core::Rig rig = room_rig(4);
-  std::mt19937 random(11);
-  std::vector<acquisition::CameraView> views(rig.cameras.size());
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    fill(views[i], rig.cameras[i], static_cast<std::size_t>(state.range(0)), random);
+// What the cameras of the room see: as many sightings in each, of no dots in common.
+class RoomViews {
+ public:
+  explicit RoomViews(std::size_t sightings) : rig_(room_rig(4)), views_(rig_.cameras.size()) {
+    std::mt19937 random(11);
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      fill(views_[i], rig_.cameras[i], sightings, random);
+    }
   }
+  std::span<const acquisition::CameraView> views() const { return views_; }
+
+ private:
+  core::Rig rig_;
+  std::vector<acquisition::CameraView> views_;
+};
+
+// The first step alone.
+void match_pairs(benchmark::State& state) {
+  const RoomViews room(static_cast<std::size_t>(state.range(0)));
   const auto matcher = std::make_unique<acquisition::Matcher>();
-  const auto merger = std::make_unique<acquisition::FinalistMerger>();
   const auto pairs = std::make_unique<acquisition::CandidatePairs>();
   core::AcquisitionCounts counts;
   for (auto _ : state) {
     counts = {};
     acquisition::WorkBudget budget(kUnlimited);
-    merger->start(2.0 * kDiameter_m);
-    for (std::size_t a = 0; a < views.size(); ++a) {
-      for (std::size_t b = a + 1; b < views.size(); ++b) {
+    matcher->start();
+    for (std::size_t a = 0; a < room.views().size(); ++a) {
+      for (std::size_t b = a + 1; b < room.views().size(); ++b) {
         pairs->clear();
-        matcher->match(views, a, b, kDiameter_m, *pairs, counts, budget);
-        for (const auto& pair : *pairs) merger->merge(views, pair, counts, budget);
+        std::size_t next = 0;
+        matcher->match(room.views(), a, b, kDiameter_m, *pairs, counts, budget, next);
       }
     }
-    benchmark::DoNotOptimize(merger->finalists().size());
+    counts.work_units = budget.spent();
   }
   if (counts.pairs_accepted == 0) state.SkipWithError("no pairs");
   state.counters["tested"] = counts.pairs_tested;
   state.counters["accepted"] = counts.pairs_accepted;
-  state.counters["finalists"] = static_cast<double>(merger->finalists().size());
+  state.counters["units"] = static_cast<double>(counts.work_units);
 }
 
+// Both steps: finalists of two views and more.
+void match(benchmark::State& state) {
+  const RoomViews room(static_cast<std::size_t>(state.range(0)));
+  acquisition::FinalistSearch search;
+  core::AcquisitionCounts counts;
+  for (auto _ : state) {
+    counts = {};
+    acquisition::WorkBudget budget(kUnlimited);
+    search.start(room.views(), kDiameter_m);
+    search.advance(2, budget, counts);
+    counts.work_units = budget.spent();
+  }
+  if (search.finalists().empty()) state.SkipWithError("no finalists");
+  state.counters["accepted"] = counts.pairs_accepted;
+  state.counters["finalists"] = static_cast<double>(search.finalists().size());
+  state.counters["units"] = static_cast<double>(counts.work_units);
+}
+
+BENCHMARK(match_pairs)->Arg(50)->Arg(100)->Arg(200)->Arg(500)->Unit(benchmark::kMicrosecond);
 BENCHMARK(match)->Arg(50)->Arg(100)->Arg(200)->Arg(500)->Unit(benchmark::kMicrosecond);
 
 }  // namespace

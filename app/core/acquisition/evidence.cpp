@@ -1,6 +1,7 @@
 #include "app/core/acquisition/evidence.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -15,9 +16,9 @@ constexpr double kThere = 0.5;
 // That a dot of a target that is there is not found: hidden, out of all views, merged with another.
 constexpr double kHidden = 0.2;
 
-// Of the numbers of cameras that may see a dot, a true one is seen by just this many: about one in
-// three, while clutter is counted with all that are seen by at least as many.
-constexpr double kShareOfViews = 0.35;
+// Of the numbers of cameras that may see a dot, a true one is seen by just this many: about two in
+// five, while clutter is counted with all that are seen by at least as many.
+constexpr double kShareOfViews = 0.4;
 
 // A dot's measured diameter, relative: each dot's own error, and that of all alike, from exposure.
 constexpr double kSizeSigma = 0.12;
@@ -26,6 +27,8 @@ constexpr double kSizeBias = 0.10;
 constexpr double kLeastForSizes = -8.0;
 
 constexpr double kLogTwoPi = 1.8378770664093453;
+
+constexpr double kLargestExponent = 600.0;
 
 double log_orientations(const core::Target& target) {
   const double all = 8.0 * std::numbers::pi * std::numbers::pi;
@@ -60,6 +63,49 @@ double log_sizes(const core::Target& target, std::span<const Witness> witnesses,
   return std::max(kLeastForSizes, -0.5 * (chi2 + log_det + n * kLogTwoPi) - chance);
 }
 
+// One candidate against all else that its finalists may be.
+struct Weighing {
+  const core::Target& target;
+  std::span<const Witness> witnesses;
+  const Clutter& clutter;
+  RigidDots dots;
+  double max_rms_residual_m;
+
+  double log_anywhere() const { return -std::log(clutter.room_m3()) - log_orientations(target); }
+
+  // That a dot is seen by so many cameras, over clutter at its place.
+  double log_dot(std::size_t i) const {
+    return std::log(kShareOfViews) - std::log(clutter.density_per_m3(i));
+  }
+
+  // Of the target to clutter.
+  double log_odds() const {
+    double sum = log_prior(target, witnesses.size()) + log_sizes(target, witnesses, clutter) +
+                 log_fit(as_span(dots), max_rms_residual_m) + log_anywhere();
+    for (std::size_t i = 0; i < witnesses.size(); ++i) sum += log_dot(i);
+    return sum;
+  }
+
+  // Of two of the target's dots and clutter at the third's place, to clutter.
+  double log_odds_of_pair(std::size_t i, std::size_t j) const {
+    const std::array<Witness, 2> pair = {witnesses[i], witnesses[j]};
+    return log_prior(target, pair.size()) + log_sizes(target, pair, clutter) +
+           log_pair_fit(dots[i], dots[j], max_rms_residual_m) + log_anywhere() + log_dot(i) +
+           log_dot(j);
+  }
+
+  // Of clutter, or two of three dots, to clutter. A target that hides its third dot needs clutter
+  // only somewhere on a ring.
+  double log_odds_of_less() const {
+    double sum = 1.0;
+    for (std::size_t i = 0; i < witnesses.size(); ++i) {
+      const double odds = log_odds_of_pair(i, (i + 1) % witnesses.size());
+      sum += std::exp(std::min(odds, kLargestExponent));
+    }
+    return std::log(sum);
+  }
+};
+
 }  // namespace
 
 Witnesses witnesses_of(std::span<const Finalist> finalists, const Selection& selection) {
@@ -88,14 +134,14 @@ RigidDots rigid_dots(const core::Target& target, std::span<const Witness> witnes
 double log_odds_of(const core::Target& target, std::span<const Witness> witnesses,
                    const core::Pose& pose, std::span<const Finalist> finalists,
                    double max_rms_residual_m) {
+  if (witnesses.size() < core::kMinDots) return -std::numeric_limits<double>::infinity();
   const Clutter clutter(target, witnesses, finalists);
-  double odds = log_prior(target, witnesses.size()) + log_sizes(target, witnesses, clutter) +
-                log_fit(as_span(rigid_dots(target, witnesses, pose)), max_rms_residual_m) -
-                std::log(clutter.room_m3()) - log_orientations(target);
-  for (const Witness& w : witnesses) {
-    odds += std::log(kShareOfViews) - std::log(clutter.density_per_m3(w.position_m, w.views));
-  }
-  return odds;
+  const Weighing weighing{target, witnesses, clutter, rigid_dots(target, witnesses, pose),
+                          max_rms_residual_m};
+  // Of more dots than three, two that are the target's and clutter at all the others' places are
+  // too improbable to matter.
+  const double odds = weighing.log_odds();
+  return witnesses.size() > core::kMinDots ? odds : odds - weighing.log_odds_of_less();
 }
 
 double false_lock_probability(double log_odds, std::span<const double> rivals) {

@@ -1,5 +1,5 @@
 #pragma once
-// Match, second step: pairs merge into finalists, 3-D points that may be dots (paper 3.1.3, 3.1.4).
+// Finalists: 3-D points that may be dots (paper 3.1.3, 3.1.4), and who owns which sighting.
 
 #include <Eigen/Core>
 #include <array>
@@ -7,18 +7,18 @@
 #include <span>
 
 #include "app/core/acquisition/match.h"
-#include "app/core/acquisition/point_grid.h"
-#include "app/core/acquisition/work_budget.h"
+#include "app/core/acquisition/view_finder.h"
 #include "hal/base/camera_set.h"
 #include "hal/base/static_vector.h"
 
 namespace dottrack::acquisition {
 
 struct Finalist {
-  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();     // world
-  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  // known after refine()
-  double diameter_m = 0.0;                                  // mean over its views, after refine()
-  std::uint32_t pairs = 0;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // world
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
+  double diameter_m = 0.0;         // mean over its views
+  double worst_residual_px = 0.0;  // of its views
+  std::uint32_t pairs = 1;         // of sightings that led to it
   CameraSet cameras;
   std::array<std::uint16_t, kMaxCameras> sighting{};  // one a camera, where cameras has it
 
@@ -29,33 +29,39 @@ struct Finalist {
 
 using Finalists = StaticVector<Finalist, core::kMaxFinalists>;
 
-class FinalistMerger {
+// Finalists by the sightings they own. A sighting may belong to several: a dot, and lines of sight
+// that cross by chance.
+class FinalistSet {
  public:
-  // Empties the collection. search_radius_m: how far a pair's point may be from its finalist.
-  void start(double search_radius_m);
+  static constexpr std::uint16_t kNone = 0xFFFF;
 
-  // Gives the pair to the closest prior finalist whose position projects into both of the pair's
-  // bounding boxes - widened by a quarter and a pixel, the paper's remedy for splintered sets - and
-  // that has no other region of these cameras; otherwise founds a new finalist. A finalist's
-  // position is the mean of its pairs' points.
-  void merge(std::span<const CameraView> views, const CandidatePair& pair,
-             core::AcquisitionCounts& counts, WorkBudget& budget);
-
-  // Recomputes every finalist by weighted least squares over all its lines of sight, drops views
-  // that it does not project into, unites finalists that fit into each other's views, and removes
-  // what is left with fewer than two views (paper 3.1.4, appendix).
-  void refine(std::span<const CameraView> views, WorkBudget& budget);
-
+  void clear();
   const Finalists& finalists() const { return finalists_; }
 
+  // Calls visit(index, finalist) for every finalist with this sighting, the latest first, until it
+  // returns true; whether it did.
+  template <class Visit>
+  bool visit_owners(std::size_t camera, std::size_t sighting, const Visit& visit) const {
+    for (std::uint16_t i = heads_[camera][sighting]; i != kNone; i = next_[i][camera]) {
+      if (visit(i, finalists_[i])) return true;
+    }
+    return false;
+  }
+
+  void count_pair(std::uint16_t index) { ++finalists_[index].pairs; }
+
+  // False when there is no room.
+  bool add(const Finalist& finalist);
+  void replace(std::uint16_t index, const Finalist& finalist);
+  void remove(std::uint16_t index);  // the last one takes its place
+
  private:
-  void found(const CandidatePair& pair, core::AcquisitionCounts& counts);
-  void join(Finalist& finalist, std::uint16_t index, const CandidatePair& pair);
-  void unite_splinters(std::span<const CameraView> views, WorkBudget& budget);
+  void link(std::uint16_t index);
+  void unlink(std::uint16_t index);
 
   Finalists finalists_;
-  PointGrid grid_;
-  double search_radius_m_ = 0.0;
+  std::array<std::array<std::uint16_t, core::kMaxRegions>, kMaxCameras> heads_{};
+  std::array<std::array<std::uint16_t, kMaxCameras>, core::kMaxFinalists> next_{};
 };
 
 }  // namespace dottrack::acquisition

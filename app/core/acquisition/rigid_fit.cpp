@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace dottrack::acquisition {
 namespace {
@@ -63,20 +64,43 @@ double log_fit_at(std::span<const RigidDot> dots, const Vector3d& middle_m, doub
   return -0.5 * (chi2 + log_det + freedom * kLogTwoPi);
 }
 
-}  // namespace
-
-double log_fit(std::span<const RigidDot> dots, double max_rms_residual_m) {
-  if (dots.size() < 3) return kImpossible;
-  const Vector3d middle_m = middle_of(dots);
+// The mean over the systematic errors of what the function says of each, in logarithms.
+template <class LogDensity>
+double over_systematic(double max_rms_residual_m, const LogDensity& log_density) {
   std::array<double, kSystematicParts.size()> logs{};
   for (std::size_t i = 0; i < logs.size(); ++i) {
-    logs[i] = log_fit_at(dots, middle_m, kSystematicParts[i] * max_rms_residual_m);
+    logs[i] = log_density(kSystematicParts[i] * max_rms_residual_m);
   }
   const double largest = *std::max_element(logs.begin(), logs.end());
   if (!std::isfinite(largest)) return kImpossible;
   double sum = 0.0;
   for (const double l : logs) sum += std::exp(l - largest);
   return largest + std::log(sum / static_cast<double>(logs.size()));
+}
+
+}  // namespace
+
+double log_fit(std::span<const RigidDot> dots, double max_rms_residual_m) {
+  if (dots.size() < 3) return kImpossible;
+  const Vector3d middle_m = middle_of(dots);
+  return over_systematic(max_rms_residual_m, [&](double systematic_m) {
+    return log_fit_at(dots, middle_m, systematic_m);
+  });
+}
+
+double log_pair_fit(const RigidDot& a, const RigidDot& b, double max_rms_residual_m) {
+  const Vector3d edge = b.arm_m - a.arm_m;
+  const Vector3d found = edge + b.error_m - a.error_m;
+  const double length_m = edge.norm();
+  const double off_m = found.norm() - length_m;
+  const Vector3d along = edge / length_m;
+  const double own_m2 = along.dot((a.covariance_m2 + b.covariance_m2) * along);
+  // The turns that carry the edge onto the found one make a circle; others miss it by an arc.
+  const double turns = std::log(2.0 * std::numbers::pi / (length_m * length_m));
+  return turns + over_systematic(max_rms_residual_m, [&](double systematic_m) {
+           const double variance_m2 = own_m2 + 2.0 * systematic_m * systematic_m;
+           return -0.5 * (off_m * off_m / variance_m2 + std::log(variance_m2) + kLogTwoPi);
+         });
 }
 
 }  // namespace dottrack::acquisition

@@ -24,4 +24,7 @@ struct RigidDot {
 // max_rms_residual_m, each size about as probable as any other on a scale of logarithms.
 double log_fit(std::span<const RigidDot> dots, double max_rms_residual_m);
 
+// The same for two dots, per m^6: they leave a turn about their line open.
+double log_pair_fit(const RigidDot& a, const RigidDot& b, double max_rms_residual_m);
+
 }  // namespace dottrack::acquisition

@@ -6,6 +6,9 @@
 
 namespace dottrack::estimation {
 
+// What a view counts for that contradicts a dot, at most: a dot may be half hidden.
+inline constexpr double kLeastEllipseLogOdds = -4.0;
+
 // A region's own ellipse.
 geometry::ImageEllipse ellipse_of(const image::Region& region);
 
@@ -15,7 +18,8 @@ geometry::ImageEllipse ellipse_of(const image::Region& region);
 bool may_be(const geometry::ImageEllipse& expected, const geometry::ImageEllipse& seen);
 
 // Natural logarithm of how much more probably a dot that should look like `expected` is seen as
-// `seen` than a region of clutter is. Bounded below: a dot may be half hidden.
+// `seen` than a region of clutter of the same size is: from the axis ratio and the angle alone.
+// Between kLeastEllipseLogOdds and 1.6, since a part of all clutter lies as flat as the dots do.
 double ellipse_log_odds(const geometry::ImageEllipse& expected, const geometry::ImageEllipse& seen);
 
 }  // namespace dottrack::estimation

@@ -1,6 +1,7 @@
 #include "app/core/estimation/dot_position.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace dottrack::estimation {
@@ -15,6 +16,40 @@ bool solve(const Views& views, geometry::Triangulation& result) {
   StaticVector<geometry::SightLine, kMaxCameras> lines;
   for (const View& view : views) lines.push_back(view.sighting->line);
   return geometry::triangulate(as_span(lines), result) == geometry::TriangulationStatus::ok;
+}
+
+// The linear projection of a point near a line of sight is off by less than this, pixels.
+constexpr double kLinearError_px = 0.25;
+constexpr double kNearLine_px = 4.0;
+
+// What the views make of a point: where it projects to, linearly.
+struct Residuals {
+  StaticVector<double, kMaxCameras> squared_px;
+  std::size_t worst = 0;
+  double sum2_px = 0.0;
+  bool inside_all = true;  // of the bounding boxes, beyond doubt
+};
+
+bool clearly_inside(const Sighting& sighting, const Eigen::Vector2d& pixel) {
+  return pixel.x() > sighting.box_min_px.x() + kLinearError_px &&
+         pixel.y() > sighting.box_min_px.y() + kLinearError_px &&
+         pixel.x() < sighting.box_max_px.x() - kLinearError_px &&
+         pixel.y() < sighting.box_max_px.y() - kLinearError_px;
+}
+
+Residuals residuals_of(const Views& views, const Eigen::Vector3d& point_m) {
+  Residuals result;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const Sighting& sighting = *views[i].sighting;
+    const Eigen::Vector2d pixel = sighting.pixel_of(point_m);
+    const double squared = (pixel - sighting.pixel).squaredNorm();
+    result.squared_px.push_back(squared);
+    result.sum2_px += squared;
+    if (squared > result.squared_px[result.worst]) result.worst = i;
+    result.inside_all = result.inside_all && squared < kNearLine_px * kNearLine_px &&
+                        clearly_inside(sighting, pixel);
+  }
+  return result;
 }
 
 // How far outside the view's bounding box the point projects: 0 inside, in box sizes outside.
@@ -43,32 +78,18 @@ bool drop_worst(Views& views, const Eigen::Vector3d& point_m) {
   return true;
 }
 
-double residual2_px(const View& view, const Eigen::Vector3d& point_m) {
-  return (view.sighting->pixel_of(point_m) - view.sighting->pixel).squaredNorm();
-}
-
-double sum_residual2_px(const Views& views, const Eigen::Vector3d& point_m) {
-  double sum = 0.0;
-  for (const View& view : views) sum += residual2_px(view, point_m);
-  return sum;
-}
-
 // A dot half behind a mast has its centroid off by a pixel while the other views agree to
 // hundredths. Removes the view that fits worst when the rest fit far better without it: by an F
 // test of the two coordinates it takes along. False when no view is that odd.
-bool drop_outlier(Views& views, const Eigen::Vector3d& point_m) {
+bool drop_outlier(Views& views, const Residuals& residuals) {
   if (views.size() < kMinViewsToJudge) return false;
-  const auto worst =
-      std::max_element(views.begin(), views.end(), [&](const View& a, const View& b) {
-        return residual2_px(a, point_m) < residual2_px(b, point_m);
-      });
-  if (residual2_px(*worst, point_m) < kOddView_px * kOddView_px) return false;
+  if (residuals.squared_px[residuals.worst] < kOddView_px * kOddView_px) return false;
   Views rest = views;
-  rest.erase(rest.begin() + (worst - views.begin()));
+  rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(residuals.worst));
   geometry::Triangulation without;
   if (!solve(rest, without)) return false;
-  const double left2 = sum_residual2_px(rest, without.point_m);
-  const double gained2 = sum_residual2_px(views, point_m) - left2;
+  const double left2 = residuals_of(rest, without.point_m).sum2_px;
+  const double gained2 = residuals.sum2_px - left2;
   const double freedom = 2.0 * static_cast<double>(rest.size()) - 3.0;
   if (gained2 / 2.0 < kMinFRatio * left2 / freedom) return false;
   views = rest;
@@ -87,12 +108,16 @@ double mean_diameter(const Views& views, const Eigen::Vector3d& point_m) {
 
 bool locate_dot(Views views, DotPosition& position) {
   geometry::Triangulation result;
+  Residuals residuals;
   do {
     if (views.size() < 2 || !solve(views, result)) return false;
-  } while (drop_worst(views, result.point_m) || drop_outlier(views, result.point_m));
+    residuals = residuals_of(views, result.point_m);
+  } while ((!residuals.inside_all && drop_worst(views, result.point_m)) ||
+           drop_outlier(views, residuals));
   position.position_m = result.point_m;
   position.covariance_m2 = result.covariance_m2;
   position.diameter_m = mean_diameter(views, result.point_m);
+  position.worst_residual_px = std::sqrt(residuals.squared_px[residuals.worst]);
   position.cameras = CameraSet{};
   for (const View& view : views) position.cameras.insert(view.camera);
   return true;

@@ -23,8 +23,9 @@ using Views = StaticVector<View, kMaxCameras>;
 struct DotPosition {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // world
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
-  double diameter_m = 0.0;  // mean over the views of the semi-major axis's full length
-  CameraSet cameras;        // whose views agree
+  double diameter_m = 0.0;         // mean over the views of the semi-major axis's full length
+  double worst_residual_px = 0.0;  // of the views that agree
+  CameraSet cameras;               // whose views agree
 };
 
 // Weighted least squares over all views; while the result does not project into the bounding box of

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/core/estimation/dot_ellipse.h"
 #include "app/core/estimation/dot_position.h"
-#include "app/core/estimation/dot_size.h"
 #include "app/core/image/band.h"
 #include "app/core/image/dot_centre.h"
 
@@ -17,35 +17,7 @@ constexpr double kWindowRadii = 3.0;
 constexpr double kGateRadii = 1.5;
 constexpr double kWindowRim_px = 2.0;
 
-struct Expected {  // where and how large a dot should be seen
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  double radius_px = 0.0;
-  image::RegionGate gate;
-};
-
-bool inside(const core::Camera& camera, const Eigen::Vector2d& pixel) {
-  return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() <= camera.width_px - 0.5 &&
-         pixel.y() <= camera.height_px - 0.5;
-}
-
-// False when the camera cannot see the place: outside its image or its distance range.
-bool expect(const core::Camera& camera, const geometry::Optics& optics, double diameter_m,
-            const Eigen::Vector3d& place_m, Expected& expected) {
-  const double range_m = (place_m - geometry::centre(camera.model)).norm();
-  if (range_m < camera.distance_min_m || range_m > camera.distance_max_m) return false;
-  if (geometry::project(camera.model, place_m, expected.pixel) != geometry::OpticsStatus::ok ||
-      !inside(camera, expected.pixel)) {
-    return false;
-  }
-  const geometry::AngularScale& scale = optics.at(expected.pixel);
-  if (scale.max_px <= 0.0) return false;
-  expected.radius_px = 0.5 * diameter_m / range_m * scale.max_px;
-  expected.gate = estimation::dot_gate(
-      camera, estimation::expected_semi_major({diameter_m, diameter_m}, range_m, scale));
-  return true;
-}
-
-image::Window window_around(const Expected& expected) {
+image::Window window_around(const ExpectedDot& expected) {
   const double reach = kWindowRadii * expected.radius_px + kWindowRim_px;
   return {static_cast<int>(std::floor(expected.pixel.x() - reach)),
           static_cast<int>(std::floor(expected.pixel.y() - reach)),
@@ -75,32 +47,40 @@ Follower::Follower(const core::Rig& rig, std::span<const geometry::Optics> optic
 
 void Follower::predict(const core::Pose& previous) {
   for (std::size_t dot = 0; dot < rig_->target.dots.size(); ++dot) {
-    predicted_m_[dot] =
-        previous.orientation * rig_->target.dots[dot].position_m + previous.position_m;
+    predicted_[dot] = placed(rig_->target.dots[dot], previous);
   }
+}
+
+// The region nearest to the dot's place that may be the dot; false when there is none.
+bool Follower::choose_region(std::size_t camera, const ExpectedDot& expected,
+                             image::Regions& considered, image::Region& chosen) {
+  double closest_px = kGateRadii * expected.radius_px;
+  bool any = false;
+  for (const image::Region& region : window_regions_) {
+    static_cast<void>(try_push_back(considered, region));
+    const double distance_px = (region.centroid_px - expected.pixel).norm();
+    if (region.touches_border || distance_px > closest_px) continue;
+    if (expected.has_ellipse &&
+        !estimation::may_be(expected.ellipse, estimation::ellipse_of(region))) {
+      ++result_.rejected_ellipse[camera];
+      continue;
+    }
+    closest_px = distance_px;
+    any = true;
+    chosen = region;
+  }
+  return any;
 }
 
 void Follower::find_dot(std::size_t camera, std::size_t dot, const ImageView& image,
                         image::Regions& considered) {
   const core::Camera& model = rig_->cameras[camera];
-  Expected expected;
-  if (!expect(model, optics_[camera], rig_->target.dots[dot].diameter_m, predicted_m_[dot],
-              expected)) {
-    return;
-  }
+  ExpectedDot expected;
+  if (!expect(model, optics_[camera], predicted_[dot], expected)) return;
   identifier_->identify(image, window_around(expected), image::band_of(model), expected.gate,
                         window_regions_);
-  double closest_px = kGateRadii * expected.radius_px;
   Found& found = found_[camera][dot];
-  for (const image::Region& region : window_regions_) {
-    static_cast<void>(try_push_back(considered, region));
-    const double distance_px = (region.centroid_px - expected.pixel).norm();
-    if (region.touches_border || distance_px > closest_px) continue;
-    closest_px = distance_px;
-    found.any = true;
-    found.region = region;
-  }
-  if (!found.any) return;
+  if (!choose_region(camera, expected, considered, found.region)) return;
   found.region.centroid_px = image::dot_centre(image, found.region);
   const double diameter_m = rig_->target.dots[dot].diameter_m;
   found.any = estimation::make_sighting(model, optics_[camera], {diameter_m, diameter_m},
@@ -137,22 +117,25 @@ bool Follower::triangulate_dot(std::size_t dot, estimation::LocatedDot& located)
     if (found.any) views.push_back({camera, &rig_->cameras[camera], &found.sighting});
   }
   core::DotState& state = result_.dots[dot];
+  state = {};
   estimation::DotPosition position;
   if (estimation::locate_dot(views, position)) {
     located = estimation::triangulated_dot(dot, position.position_m, position.covariance_m2);
     state.located = true;
     state.position_m = position.position_m;
     state.position_sigma_m = std::sqrt(position.covariance_m2.trace());
+    state.diameter_m = position.diameter_m;
     state.cameras = position.cameras;
     return true;
   }
   if (views.size() != 1) return false;
-  located = estimation::glimpsed_dot(dot, views[0].sighting->line, predicted_m_[dot]);
+  located = estimation::glimpsed_dot(dot, views[0].sighting->line, predicted_[dot].place_m);
   state.cameras.insert(views[0].camera);
   return true;
 }
 
 void Follower::triangulate(LocatedDots& located) {
+  located.clear();
   for (std::size_t dot = 0; dot < rig_->target.dots.size(); ++dot) {
     estimation::LocatedDot position;
     if (triangulate_dot(dot, position)) located.push_back(position);
@@ -177,32 +160,60 @@ bool Follower::drop_wrong_glimpses(LocatedDots& located) const {
   return any;
 }
 
+// The region's ellipse against the disc's in the pose found, through the derivatives at the region.
+bool Follower::has_wrong_shape(std::size_t camera, const PlacedDot& dot, const Found& found) const {
+  const core::Camera& model = rig_->cameras[camera];
+  if (!faces(model, dot)) return true;
+  const double range_m = (dot.place_m - geometry::centre(model.model)).norm();
+  const geometry::ImageEllipse expected = geometry::disc_ellipse(
+      found.sighting.pixels_per_rad, dot.normal, 0.5 * dot.diameter_m / range_m);
+  return !estimation::may_be(expected, estimation::ellipse_of(found.region));
+}
+
+bool Follower::drop_wrong_shapes() {
+  bool any = false;
+  for (std::size_t i = 0; i < rig_->target.dots.size(); ++i) {
+    const PlacedDot dot = placed(rig_->target.dots[i], result_.pose);
+    if (!dot.has_normal()) continue;
+    for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
+      Found& found = found_[camera][i];
+      if (!found.any || !has_wrong_shape(camera, dot, found)) continue;
+      found.any = false;
+      ++result_.rejected_ellipse[camera];
+      any = true;
+    }
+  }
+  return any;
+}
+
 bool Follower::steps_too_far() const {
   for (std::size_t dot = 0; dot < rig_->target.dots.size(); ++dot) {
     const Eigen::Vector3d place =
         result_.pose.orientation * rig_->target.dots[dot].position_m + result_.pose.position_m;
-    if ((place - predicted_m_[dot]).norm() > rig_->target.max_step_m) return true;
+    if ((place - predicted_[dot].place_m).norm() > rig_->target.max_step_m) return true;
   }
   return false;
 }
 
-core::Reason Follower::locate(LocatedDots& located, const core::Pose& previous) {
+Follower::Attempt Follower::locate(LocatedDots& located, const core::Pose& previous) {
   for (const estimation::LocatedDot& dot : located) {
-    if ((dot.position_m - predicted_m_[dot.dot]).norm() > rig_->target.max_step_m) {
-      return core::Reason::step_too_large;
+    if ((dot.position_m - predicted_[dot.dot].place_m).norm() > rig_->target.max_step_m) {
+      return {core::Reason::step_too_large, false};
     }
   }
   const auto attempt = [&] {
     return estimation::locate(rig_->target, as_span(located), rig_->limits.max_rms_residual_m,
                               &previous, result_.pose);
   };
+  const auto has_pose = [](estimation::LocateStatus status) {
+    return status == estimation::LocateStatus::ok || status == estimation::LocateStatus::residual;
+  };
   estimation::LocateStatus status = attempt();
-  const bool has_pose =
-      status == estimation::LocateStatus::ok || status == estimation::LocateStatus::residual;
-  if (has_pose && drop_wrong_glimpses(located)) status = attempt();
-  if (status == estimation::LocateStatus::ok && steps_too_far())
-    return core::Reason::step_too_large;
-  return estimation::reason_of(status);
+  if (has_pose(status) && drop_wrong_glimpses(located)) status = attempt();
+  if (status == estimation::LocateStatus::ok && steps_too_far()) {
+    return {core::Reason::step_too_large, true};
+  }
+  return {estimation::reason_of(status), has_pose(status)};
 }
 
 void Follower::record_views(const LocatedDots& located) {
@@ -231,15 +242,20 @@ const FollowResult& Follower::follow(std::span<const core::CameraFrame> frames,
                                      const core::Pose& previous,
                                      std::span<image::Regions* const> regions) {
   result_ = FollowResult{};
-  found_ = {};
   predict(previous);
   for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
+    for (Found& found : found_[camera]) found.any = false;
     regions[camera]->clear();
     if (frames[camera].delivered) update(camera, frames[camera].image, *regions[camera]);
   }
   LocatedDots located;
   triangulate(located);
-  result_.reason = locate(located, previous);
+  Attempt attempt = locate(located, previous);
+  if (attempt.has_pose && drop_wrong_shapes()) {
+    triangulate(located);
+    attempt = locate(located, previous);
+  }
+  result_.reason = attempt.reason;
   record_views(located);
   return result_;
 }

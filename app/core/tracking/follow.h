@@ -11,6 +11,7 @@
 #include "app/core/image/identify.h"
 #include "app/core/rig.h"
 #include "app/core/tick_result.h"
+#include "app/core/tracking/expected_dot.h"
 
 namespace dottrack::tracking {
 
@@ -21,6 +22,8 @@ struct FollowResult {
   std::array<core::DotState, core::kMaxDots> dots{};
   CameraSet cameras_used;
   std::uint8_t dots_used = 0;
+  // Regions in a dot's place, by camera, that do not have the shape of that dot.
+  std::array<std::uint32_t, kMaxCameras> rejected_ellipse{};
 };
 
 // Follows the target from frame to frame. The caller keeps the pose; nothing is remembered here.
@@ -34,6 +37,11 @@ class Follower {
   // triangulates each dot seen by two or more (3.2.3) and locates the vehicle from three or more
   // (3.2.4). frames[i].image is not looked at unless delivered. regions[i] receives the regions
   // considered. A dot may move max_step_m since the previous pose.
+  //
+  // Where the target gives a dot's normal, the dot is not looked for by cameras that it turns away
+  // from, and a region counts only if it may be the ellipse that the dot shows: in the previous
+  // pose, and once more in the pose found, which is then found anew without the regions that may
+  // not (3.3).
   const FollowResult& follow(std::span<const core::CameraFrame> frames, const core::Pose& previous,
                              std::span<image::Regions* const> regions);
 
@@ -45,22 +53,31 @@ class Follower {
   };
   using LocatedDots = StaticVector<estimation::LocatedDot, core::kMaxDots>;
 
+  struct Attempt {  // at a pose
+    core::Reason reason = core::Reason::too_few_dots;
+    bool has_pose = false;  // one that fits, or one that does not fit well enough
+  };
+
   void predict(const core::Pose& previous);
   void update(std::size_t camera, const ImageView& image, image::Regions& considered);
   void find_dot(std::size_t camera, std::size_t dot, const ImageView& image,
                 image::Regions& considered);
+  bool choose_region(std::size_t camera, const ExpectedDot& expected, image::Regions& considered,
+                     image::Region& chosen);
   void drop_shared_regions(std::size_t camera);
   void triangulate(LocatedDots& located);
   bool triangulate_dot(std::size_t dot, estimation::LocatedDot& located);
   bool drop_wrong_glimpses(LocatedDots& located) const;
-  core::Reason locate(LocatedDots& located, const core::Pose& previous);
+  bool drop_wrong_shapes();
+  bool has_wrong_shape(std::size_t camera, const PlacedDot& dot, const Found& found) const;
+  Attempt locate(LocatedDots& located, const core::Pose& previous);
   bool steps_too_far() const;
   void record_views(const LocatedDots& located);
 
   const core::Rig* rig_;
   std::span<const geometry::Optics> optics_;
   image::Identifier* identifier_;
-  std::array<Eigen::Vector3d, core::kMaxDots> predicted_m_{};
+  std::array<PlacedDot, core::kMaxDots> predicted_{};
   std::array<std::array<Found, core::kMaxDots>, kMaxCameras> found_{};
   image::Regions window_regions_;
   FollowResult result_;
