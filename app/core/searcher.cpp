@@ -1,5 +1,6 @@
 #include "app/core/searcher.h"
 
+#include "app/core/acquisition/sightings.h"
 #include "app/core/image/band.h"
 
 namespace dottrack::core {

@@ -76,6 +76,6 @@ bool run(std::string_view what) {
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
-  hwy::SetSupportedTargetsForTest(HWY_SSE4 | HWY_SSSE3 | HWY_SSE2);
+  hwy::SetSupportedTargetsForTest(HWY_SSE4 | HWY_SSSE3);
   return dottrack::bench::run(argv[1]) ? 0 : 1;
 }

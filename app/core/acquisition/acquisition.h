@@ -18,10 +18,6 @@
 
 namespace dottrack::acquisition {
 
-// The 2-D gate of one camera's whole image, from its distance range and the target's dots (3.1.2).
-image::RegionGate acquisition_gate(const core::Camera& camera, const geometry::Optics& optics,
-                                   const core::Target& target);
-
 struct AcquisitionResult {
   // none: there is a candidate. ambiguous: there is one, and a rival nearly as good. Otherwise why
   // there is no candidate.

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/core/acquisition/acquisition.h"
+#include "app/core/acquisition/sightings.h"
 #include "app/core/image/band.h"
 #include "tests/unit/tracking/painted_room.h"
 

@@ -175,7 +175,7 @@ TEST_F(HeldBackTest, ThreeDotsThatMoveAsOneAreBelievedSoon) {
     const Pose pose = PaintedRoom::pose_at(4.0 + 0.06 * ticks, 2.8, 1.0);
     const TickResult& result = show(tracker, pose);
     locked = result.has_pose;
-    if (locked) EXPECT_TRUE(is_at(result, pose));
+    EXPECT_EQ(locked, is_at(result, pose));
   }
   EXPECT_TRUE(locked);
   EXPECT_GT(ticks, 1);
