@@ -62,6 +62,7 @@ void RatioTable::Finalize() {
     if (!is_simulation(name)) print_row(name, time_us(name));
   }
   std::printf("\n");
+  print_brute_force();
   print_rate("sim/drive_tick", "simulated ticks, 12 cameras");
   print_rate("sim/acquisition", "simulated acquisitions, 12 cameras");
   for (const char* scene : {"sparse", "heavy"}) {
@@ -69,6 +70,14 @@ void RatioTable::Finalize() {
     print_comparison(std::string("opencv/contours/") + scene, ours);
     print_comparison(std::string("opencv/connected_components/") + scene, ours);
   }
+}
+
+void RatioTable::print_brute_force() const {
+  const double thousandth_us = time_us("select_brute_force/4/200/a_thousandth_of_it");
+  const double ours_us = time_us("select/4/200");
+  if (thousandth_us <= 0.0 || ours_us <= 0.0) return;
+  std::printf("%-36s %8.0f x select/4/200 (1000 times a timed thousandth)\n",
+              "select_brute_force/4/200", 1000.0 * thousandth_us / ours_us);
 }
 
 void RatioTable::print_rate(const std::string& name, const char* what) const {

@@ -28,6 +28,7 @@ class RatioTable : public benchmark::BenchmarkReporter {
   double time_us(const std::string& name) const;
   void print_row(const std::string& name, double us) const;
   void print_comparison(const std::string& opencv, const std::string& ours) const;
+  void print_brute_force() const;
   void print_rate(const std::string& name, const char* what) const;
 
   std::map<Place, std::string> names_;
