@@ -26,8 +26,7 @@ constexpr Comparison kComparisons[] = {
     {"opencv/contours/sparse", "identify/sparse", 0.0},
     {"opencv/connected_components/sparse", "identify/sparse", 0.0},
     {"opencv/contours/heavy", "identify/heavy", 15.0},
-    {"opencv/connected_components/heavy", "identify/heavy", 45.0},
-    {"select_brute_force/4/200", "select/4/200", 50'000.0}};
+    {"opencv/connected_components/heavy", "identify/heavy", 45.0}};
 
 // These use all cores: their measure is real time.
 bool is_simulation(const std::string& name) {
@@ -99,11 +98,20 @@ void RatioTable::Finalize() {
     if (!is_simulation(name)) print_row(name, time_us(name));
   }
   std::printf("\n");
+  print_brute_force();
   print_rate("sim/drive_tick", "simulated ticks, 12 cameras");
   print_rate("sim/acquisition", "simulated acquisitions, 12 cameras");
   print_comparisons();
   std::printf("\n");
   print_goals();
+}
+
+void RatioTable::print_brute_force() const {
+  const double thousandth_us = time_us("select_brute_force/4/200/a_thousandth_of_it");
+  const double ours_us = time_us("select/4/200");
+  if (thousandth_us <= 0.0 || ours_us <= 0.0) return;
+  std::printf("%-36s %12.0f x select/4/200 (goal: 50000; 1000 x a timed thousandth)\n",
+              "select_brute_force/4/200", 1000.0 * thousandth_us / ours_us);
 }
 
 void RatioTable::print_rate(const std::string& name, const char* what) const {

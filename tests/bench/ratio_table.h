@@ -29,6 +29,7 @@ class RatioTable : public benchmark::BenchmarkReporter {
   void print_row(const std::string& name, double us) const;
   void print_comparisons() const;
   void print_goals() const;
+  void print_brute_force() const;
   void print_rate(const std::string& name, const char* what) const;
 
   std::map<Place, std::string> names_;

@@ -1,6 +1,7 @@
 #include "app/core/acquisition/candidate_grid.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -19,46 +20,46 @@ void scan_block(const CandidateGrid::Block& block, std::size_t place, const Edge
                 Neighbours& found) {
   const auto [xs, ys, zs] = block.coordinates_m;
   const hn::CappedTag<float, 8> d;
-  const hn::RebindToSigned<decltype(d)> di;
   constexpr std::size_t kLanes = MaxLanes(d);
   const auto x = hn::Set(d, xs[place]);
   const auto y = hn::Set(d, ys[place]);
   const auto z = hn::Set(d, zs[place]);
-  const auto scale = hn::Set(d, table.bins_per_m2());
-  const auto out_of_reach = hn::Set(d, static_cast<float>(EdgeTable::kBins));
-  HWY_ALIGN std::int32_t bins[kLanes];
-  const DotSet* const dots_of = table.dots();
+  const std::span<const EdgeTable::Window> windows = table.windows();
   std::size_t size = 0;
   std::size_t looked = 0;
   DotSet all = 0;
   for (std::size_t row = block.first_row; row <= block.last_row; ++row) {
     const std::uint16_t* const cells = block.first + row * block.columns;
+    std::size_t i = cells[block.first_column];
     const std::size_t end = cells[block.last_column + 1];
-    for (std::size_t i = cells[block.first_column]; i < end; i += kLanes) {
+    looked += end - i;
+    // At least once, empty or not: that is predicted best.
+    do {
       const auto dx = hn::Sub(hn::LoadU(d, xs + i), x);
       const auto dy = hn::Sub(hn::LoadU(d, ys + i), y);
       const auto dz = hn::Sub(hn::LoadU(d, zs + i), z);
       const auto distance2 = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
-      const auto bin = hn::Min(hn::Mul(distance2, scale), out_of_reach);
-      std::uint8_t bytes[8];
-      hn::StoreMaskBits(d, hn::Lt(bin, out_of_reach), bytes);
-      unsigned near = bytes[0];
-      const std::size_t lanes = std::min(kLanes, end - i);
-      near &= (1U << lanes) - 1U;
-      looked += lanes;
-      if (near == 0) continue;
-      hn::Store(hn::ConvertTo(di, bin), di, bins);
-      for (; near != 0; near &= near - 1U) {
-        const auto lane = static_cast<std::size_t>(__builtin_ctz(near));
-        const DotSet dots = dots_of[bins[lane]];
-        const std::size_t other = i + lane;
-        found.list[size] = {static_cast<std::uint16_t>(other), dots};
-        // Whether it counts cannot be predicted, so there is no branch for it.
-        const bool counts = dots != 0 && other != place;
-        size += counts ? 1 : 0;
-        all |= counts ? dots : DotSet{0};
+      auto beyond = hn::Set(d, 1.0F);  // the nearest window
+      for (const EdgeTable::Window& window : windows) {
+        const auto off = hn::AbsDiff(distance2, hn::Set(d, window.middle_m2));
+        beyond = hn::Min(beyond, hn::Sub(off, hn::Set(d, window.reach_m2)));
       }
-    }
+      std::uint8_t bytes[8];
+      hn::StoreMaskBits(d, hn::Le(beyond, hn::Zero(d)), bytes);
+      unsigned lanes = bytes[0] & ((1U << std::min(kLanes, end - i)) - 1U);
+      if (lanes != 0) {
+        HWY_ALIGN float distances_m2[kLanes];
+        hn::Store(distance2, d, distances_m2);
+        for (; lanes != 0; lanes &= lanes - 1U) {
+          const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+          const DotSet dots = table.dots(distances_m2[lane]);
+          if (i + lane == place) continue;
+          found.list[size++] = {static_cast<std::uint16_t>(i + lane), dots};
+          all |= dots;
+        }
+      }
+      i += kLanes;
+    } while (i < end);
   }
   found.size = size;
   found.dots = all;

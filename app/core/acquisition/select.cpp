@@ -12,7 +12,7 @@ namespace dottrack::acquisition {
 namespace {
 
 // The bounds tried one after another, as parts of the largest score.
-constexpr std::array<double, 3> kBoundSteps = {1.0 / 64.0, 1.0 / 8.0, 1.0};
+constexpr std::array<double, 2> kBoundSteps = {1.0 / 32.0, 1.0};
 
 // Partial sums are added in another order than match_score adds: ties, even at a score of nothing,
 // must not fall to rounding.
@@ -140,15 +140,18 @@ void Selector::Search::build_table(WorkBudget& budget) {
 // Goes through the candidates to the next that has neighbours enough to be the anchor.
 void Selector::Search::next_anchor(WorkBudget& budget) {
   const double diameter_m = shape->diameter_m[anchor_dot()];
-  const auto enough = static_cast<int>(limits.dots - 1);
+  const std::size_t enough = limits.dots - 1;
   for (; place < grid.size() && !budget.exhausted(); ++place) {
     anchor_cost_m2 = squared(candidates[anchor()].diameter_m - diameter_m);
     budget.spend(1);
     if (!(anchor_cost_m2 <= limit_m2())) continue;
     if (limit_m2() < table_limit_m2) build_table(budget);
     grid.neighbours(place, table, neighbours);
-    budget.spend(2 + neighbours.looked / 4);
-    if (std::popcount(neighbours.dots) < enough) continue;
+    budget.spend(2 + neighbours.looked / 8 + neighbours.size / 4);
+    if (neighbours.size < enough ||
+        static_cast<std::size_t>(std::popcount(neighbours.dots)) < enough) {
+      continue;
+    }
     tree.set_anchor(anchor_dot(), anchor(), anchor_cost_m2);
     neighbour = 0;
     stage = Stage::options;

@@ -67,7 +67,10 @@ struct SelectLimits {
 // over all subsets and permutations finds.
 //
 // Branch and bound. The bound starts small and grows, since a good match, if there is one, is found
-// in the smallest. The search can stop anywhere and go on later: it keeps a stack of its own.
+// in the smallest. The search can stop anywhere and go on later: it keeps a stack of its own. A
+// unit of its work takes five to twelve nanoseconds on a desktop core; a budget is overdrawn by a
+// few hundred units at most, or by one or two a candidate where these are thousands: sorting them
+// in, and looking at the neighbours of one, are not interrupted.
 class Selector {
  public:
   Selector();

@@ -35,9 +35,13 @@ struct Sighting {
     return pixel + pixels_per_rad * offset / offset.dot(line.ray.direction);
   }
 
+  bool box_contains(const Eigen::Vector2d& p) const {
+    return p.x() >= box_min_px.x() && p.x() <= box_max_px.x() && p.y() >= box_min_px.y() &&
+           p.y() <= box_max_px.y();
+  }
+
   // Inside the bounding box, widened on every side by a part of its size and a pixel count.
-  bool box_contains(const Eigen::Vector2d& p, double widen_part = 0.0,
-                    double widen_px = 0.0) const {
+  bool box_contains(const Eigen::Vector2d& p, double widen_part, double widen_px) const {
     const Eigen::Vector2d slack =
         widen_part * (box_max_px - box_min_px) + Eigen::Vector2d::Constant(widen_px);
     return (p.array() >= (box_min_px - slack).array()).all() &&

@@ -223,6 +223,7 @@ TEST_F(TrackerTest, AMovedDotMakesTheResidualTooLarge) {
 TEST_F(TrackerTest, AStepBeyondTheLimitIsRefused) {
   Rig slow = room_.rig;
   slow.target.max_step_m = 0.02;
+  slow.limits.watch_every_ticks = 0;
   Tracker tracker(slow);
   show(middle_);
   expect_locked(tracker.step(room_.frames()), middle_);
@@ -318,7 +319,12 @@ TEST(TrackerTargets, OfThreeToEightDotsLock) {
     const Pose pose = PaintedRoom::pose_at(4.2, 2.8, 1.0);
     room.paint_vehicle(pose);
     Tracker tracker(room.rig);
-    const TickResult& result = tracker.step(room.frames());
+    TickResult result = tracker.step(room.frames());
+    if (dots == 3) {  // one look at three dots is not enough
+      EXPECT_EQ(result.reason, Reason::held_back);
+      EXPECT_LT(result.acquisition.false_lock_probability, 1e-3);
+      result = tracker.step(room.frames(Time{} + std::chrono::milliseconds(100)));
+    }
     expect_locked(result, pose);
     EXPECT_EQ(result.dots_used, dots);
   }

@@ -161,7 +161,7 @@ TEST_F(HeldBackTest, ThreeDotsThatStandStillAreNotBelieved) {
   int held_back = 0;
   for (int i = 0; i < 10; ++i) {
     const TickResult& result = show(tracker, pose);
-    EXPECT_FALSE(result.has_pose);
+    EXPECT_FALSE(result.has_pose) << i;
     held_back += result.reason == Reason::held_back ? 1 : 0;
   }
   EXPECT_GE(held_back, 8);
