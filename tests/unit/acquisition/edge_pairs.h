@@ -19,7 +19,7 @@ class EdgePairs {
   EdgePairs(std::size_t pairs, std::uint32_t seed) : random_(seed) {
     const Eigen::Vector3d centre = 5.0 * direction();
     pupil_m_ = seed % 2 == 0 ? 0.0 : 0.01;
-    max_miss_m_ = seed % 4 < 2 ? 0.1 : 1e-5;
+    max_miss_m_ = seed % 4 < 2 ? 0.1 : 1e-7;
     const double baseline_m = std::pow(10.0, between(-2.3, 1.0));
     place(cameras_[0], centre);
     place(cameras_[1], centre + baseline_m * direction());
