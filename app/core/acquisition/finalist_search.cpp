@@ -1,6 +1,8 @@
 #include "app/core/acquisition/finalist_search.h"
 
 #include <algorithm>
+#include <bit>
+#include <limits>
 
 #include "app/core/acquisition/pair_order.h"
 #include "app/core/acquisition/refine.h"
@@ -47,10 +49,6 @@ bool shares_any(const Finalist& a, const Finalist& b, CameraSet cameras) {
     if (cameras.contains(c) && a.cameras.contains(c) && b.sees(c, a.sighting[c])) return true;
   }
   return false;
-}
-
-bool is_sure(const Finalist& finalist) {
-  return finalist.worst_residual_px <= kSureResidual_px;
 }
 
 // Every view of the finalist would take the point for its own.
@@ -230,10 +228,19 @@ int FinalistSearch::Memory::look_at(const CandidatePair& pair, WorkBudget& budge
                                     core::AcquisitionCounts& counts) {
   budget.spend(kLookUnits);
   if (has_finalist(pair, true)) return 0;
-  budget.spend(kVerifyUnits);
+  PointLook look;
+  finder.look(pair.point_m, look);
+  const bool strays = finder.miss_px(pair, look) > static_cast<float>(kSureResidual_px);
+  if (strays && min_views > 2) return 2;
   PointViews alone;
   for (std::size_t side = 0; side < 2; ++side) alone.set(pair.camera[side], pair.sighting[side]);
-  const PointViews seen = finder.views_of(pair.point_m, min_views, alone);
+  const int close = std::popcount(static_cast<unsigned>(look.close.bits() | alone.cameras.bits()));
+  const bool vague = finder.is_vague(pair);
+  if (close < min_views && !vague) return close;
+  budget.spend(kVerifyUnits);
+  const PointViews seen = finder.views_of(
+      pair.point_m, vague ? finder.seeing() : look.close,
+      vague ? std::numeric_limits<double>::infinity() : kClose_px, alone, min_views);
   if (seen.cameras.size() < min_views) return min_views - 1;
   budget.spend(kSolveUnits);
   Finalist finalist;

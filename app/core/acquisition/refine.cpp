@@ -1,5 +1,7 @@
 #include "app/core/acquisition/refine.h"
 
+#include <algorithm>
+
 #include "app/core/estimation/dot_position.h"
 
 namespace dottrack::acquisition {
@@ -28,13 +30,11 @@ PointViews close_views(std::span<const CameraView> views, const PointViews& seen
 bool find_agreement(std::span<const CameraView> views, const PointViews& seen,
                     const Eigen::Vector3d& crossing_m, int min_views, Finalist& finalist) {
   Finalist core;
-  if (!refine_finalist(views, close_views(views, seen, crossing_m), core) ||
-      core.worst_residual_px > kSureResidual_px) {
+  if (!refine_finalist(views, close_views(views, seen, crossing_m), core) || !is_sure(core)) {
     return false;
   }
   Finalist all = core;
-  if (!refine_finalist(views, close_views(views, seen, core.position_m), all) ||
-      all.worst_residual_px > kSureResidual_px) {
+  if (!refine_finalist(views, close_views(views, seen, core.position_m), all) || !is_sure(all)) {
     all = core;
   }
   if (all.cameras.size() < min_views) return false;
@@ -70,15 +70,18 @@ bool find_finalist(std::span<const CameraView> views, const ViewFinder& finder,
   for (int round = 0; round < kRounds; ++round) {
     Finalist next;
     if (!refine_finalist(views, given, next)) break;
-    if (found && next.cameras.size() < finalist.cameras.size()) break;
+    if (found &&
+        (next.cameras.size() < finalist.cameras.size() || is_sure(next) < is_sure(finalist)))
+      break;
     finalist = next;
     found = true;
-    if (finalist.cameras.size() < min_views) break;
-    const PointViews again = finder.views_of(finalist.position_m, min_views);
+    if (finalist.cameras.size() < std::max(min_views, 3)) break;
+    const PointViews again = is_sure(finalist) ? finder.close_views(finalist.position_m)
+                                               : finder.all_views(finalist.position_m);
     if (same_views(again, given) || same_views(again, views_of(finalist))) break;
     given = again;
   }
-  if (!found || finalist.worst_residual_px <= kSureResidual_px) return found;
+  if (!found || is_sure(finalist)) return found;
   find_agreement(views, seen, crossing_m, min_views, finalist);
   return true;
 }

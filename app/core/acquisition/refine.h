@@ -12,6 +12,10 @@ namespace dottrack::acquisition {
 // another dot's, or half hidden.
 inline constexpr double kSureResidual_px = 1.0;
 
+inline bool is_sure(const Finalist& finalist) {
+  return finalist.worst_residual_px <= kSureResidual_px;
+}
+
 // estimation::locate_dot over the views. Fills position, covariance, diameter, worst residual and
 // the cameras that agree. False, with the finalist as it was, when fewer than two agree.
 bool refine_finalist(std::span<const CameraView> views, const PointViews& seen, Finalist& finalist);

@@ -74,13 +74,13 @@ TEST_F(MatchAgainstAllTest, PairsAtTheEdgeOfEveryGateAreFound) {
   for (std::uint32_t seed = 0; seed < 600 && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
     const test::EdgePairs rig(30, seed);
-    compare(rig.views(), 0, 1, test::EdgePairs::kMaxMiss_m);
-    compare(rig.views(), 1, 0, test::EdgePairs::kMaxMiss_m);
+    compare(rig.views(), 0, 1, rig.max_miss_m());
+    compare(rig.views(), 1, 0, rig.max_miss_m());
     belong += rig.views()[0].sightings.size();
     CandidatePair pair;
     for (std::size_t k = 0; k < rig.views()[0].sightings.size(); ++k) {
-      accepted += test_pair(rig.views()[0], k, rig.views()[1], k, test::EdgePairs::kMaxMiss_m,
-                            pair) == PairGate::accepted;
+      accepted += test_pair(rig.views()[0], k, rig.views()[1], k, rig.max_miss_m(), pair) ==
+                  PairGate::accepted;
     }
   }
   EXPECT_GT(belong, 15'000U);
@@ -211,7 +211,7 @@ TEST_F(MatchAgainstAllTest, ABrokenSightingSpoilsNoOther) {
   views[0].sightings[7].window = {2.0, 1.0};
   views[1].sightings[9].pixels_per_rad.setConstant(nan);
   views[1].sightings[11].pixels_per_rad.setZero();
-  EXPECT_GT(compare(views, 0, 1, test::EdgePairs::kMaxMiss_m), 80U);
+  EXPECT_GT(compare(views, 0, 1, rig.max_miss_m()), 80U);
 }
 
 TEST_F(MatchAgainstAllTest, NoBudgetNoWork) {
@@ -226,7 +226,7 @@ TEST_F(MatchAgainstAllTest, NoBudgetNoWork) {
 }
 
 TEST_F(MatchAgainstAllTest, EveryInstructionSetDoesTheSameWork) {
-  const test::EdgePairs rig(500, 8);
+  const test::EdgePairs rig(500, 12);
   std::vector<std::uint64_t> units;
   std::vector<std::uint32_t> tested;
   std::vector<CandidatePair> expected;
@@ -235,7 +235,7 @@ TEST_F(MatchAgainstAllTest, EveryInstructionSetDoesTheSameWork) {
     pairs_->clear();
     core::AcquisitionCounts counts;
     WorkBudget budget(kPlenty);
-    matcher_->match(rig.views(), 0, 1, test::EdgePairs::kMaxMiss_m, *pairs_, counts, budget);
+    matcher_->match(rig.views(), 0, 1, rig.max_miss_m(), *pairs_, counts, budget);
     hwy::SetSupportedTargetsForTest(0);
     if (expected.empty()) expected.assign(pairs_->begin(), pairs_->end());
     EXPECT_TRUE(same(as_span(*pairs_), expected));
