@@ -3,10 +3,12 @@
 #include <benchmark/benchmark.h>
 
 #include <memory>
+#include <string>
 
 #include "app/core/image/identify.h"
 #include "tests/bench/blob_scene.h"
 #include "tests/bench/byte_sum.h"
+#include "tests/bench/opencv_agreement.h"
 #include "tests/bench/opencv_identify.h"
 
 namespace dottrack::bench {
@@ -65,6 +67,7 @@ void identify_windows(benchmark::State& state) {
 
 void opencv(benchmark::State& state, const PictureSet& set,
             std::size_t (*regions_of)(const ImageView&)) {
+  use_one_opencv_thread();
   std::size_t regions = 0;
   for (auto _ : state) {
     regions = 0;
@@ -72,6 +75,10 @@ void opencv(benchmark::State& state, const PictureSet& set,
     benchmark::DoNotOptimize(regions);
   }
   if (regions < 12 * 90) state.SkipWithError("OpenCV found too few regions");
+  for (const Picture& picture : set) {
+    const std::string difference = opencv_disagrees(picture.view(), kGate);
+    if (!difference.empty()) state.SkipWithError(difference.c_str());
+  }
 }
 
 constexpr image::Band kBand{.intensity_min_dn = kBandMin};

@@ -34,9 +34,8 @@ void AssignmentTree::set_anchor(std::size_t dot, std::uint16_t candidate, double
 }
 
 void AssignmentTree::add(std::size_t dot, const Option& option) {
-  const auto bit = static_cast<DotSet>(1U << dot);
-  if ((with_options_ & bit) == 0) {
-    with_options_ |= bit;
+  if (!holds(with_options_, dot)) {
+    with_options_ |= dot_bit(dot);
     options_[dot].clear();
     least_cost_m2_[dot] = kNever;
   }
@@ -47,7 +46,7 @@ void AssignmentTree::add(std::size_t dot, const Option& option) {
 bool AssignmentTree::plant(double limit_m2) {
   turns_ = 0;
   for (std::size_t dot = 0; dot < shape_->dots; ++dot) {
-    if ((with_options_ >> dot & 1U) == 0) continue;
+    if (!holds(with_options_, dot)) continue;
     std::size_t turn = turns_++;
     const auto fewer = [&](std::size_t a, std::size_t b) {
       return options_[a].size() < options_[b].size();

@@ -27,10 +27,10 @@ Intervals intervals_of(const TargetShape& shape, std::size_t anchor, DotSet ends
   const auto later = [](const Interval& a, const Interval& b) { return a.least_m2 < b.least_m2; };
   Intervals intervals;
   for (std::size_t k = 0; k < shape.dots; ++k) {
-    if ((ends >> k & 1U) == 0) continue;
+    if (!holds(ends, k)) continue;
     const double edge_m = shape.distance_m[anchor][k];
     const Interval interval{squared(std::max(0.0, edge_m - tolerance_m)),
-                            squared(edge_m + tolerance_m), static_cast<DotSet>(1U << k)};
+                            squared(edge_m + tolerance_m), dot_bit(k)};
     intervals.insert(std::upper_bound(intervals.begin(), intervals.end(), interval, later),
                      interval);
   }

@@ -16,6 +16,13 @@ namespace dottrack::acquisition {
 // Dot k of the target is bit k.
 using DotSet = std::uint16_t;
 
+constexpr DotSet dot_bit(std::size_t dot) {
+  return static_cast<DotSet>(1U << dot);
+}
+constexpr bool holds(DotSet dots, std::size_t dot) {
+  return (dots & dot_bit(dot)) != 0;
+}
+
 class EdgeTable {
  public:
   static constexpr std::size_t kBins = 512;

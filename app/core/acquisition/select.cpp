@@ -129,7 +129,7 @@ void Selector::Search::next_anchor_dot(WorkBudget& budget) {
 void Selector::Search::build_table(WorkBudget& budget) {
   DotSet ends = 0;
   for (std::size_t i = anchors_before + 1; i < shape->dots; ++i) {
-    ends |= static_cast<DotSet>(1U << shape->anchors[i]);
+    ends |= dot_bit(shape->anchors[i]);
   }
   table_limit_m2 = limit_m2();
   table.build(*shape, anchor_dot(), ends,

@@ -140,24 +140,32 @@ HWY_INLINE int first_column(const Component& component, int width_px, int vector
   return fits ? first : -1;
 }
 
-template <int kVectors>
+// kWeighted: the values are not the pixels themselves.
+template <int kVectors, bool kWeighted>
 HWY_INLINE RegionSums sum(const SumsOf& of, const Component& component, int first_column) {
   const hn::Rebind<std::uint8_t, Columns> bytes;
   const auto flip =
       hn::Set(kColumns, std::int16_t{of.polarity == core::Polarity::bright ? 255 : 0});
+  const PixelKey corner = component.y_min * kRowStep + first_column;
+  const std::uint8_t* const pixels = of.pixels.row(component.y_min) + first_column;
+  const std::uint8_t* const values = of.values.row(component.y_min) + first_column;
+  const std::ptrdiff_t stride = of.pixels.stride_bytes;
   ColumnSums columns[kVectors];  // not a std::array: its constructor is not of this target
   for (std::uint32_t i = component.head; i != Components::kEnd; i = of.components.next_run(i)) {
     const Run run = of.runs[i];
-    const int y = row(run.first);
-    const std::uint8_t* pixels = of.pixels.row(y) + first_column;
-    const std::uint8_t* values = of.values.row(y) + first_column;
+    const int y = row(run.first - corner);
+    const int first = column(run.first - corner);
+    const int last = first + run.last - run.first;
+    const std::uint8_t* const here = pixels + y * stride;
     for (int k = 0; k < kVectors; ++k) {
       const int c = k * kVectorColumns;
-      columns[k].add(
-          y - component.y_min,
-          lanes_between(c, column(run.first) - first_column, column(run.last) - first_column),
-          hn::PromoteTo(kColumns, hn::LoadU(bytes, pixels + c)),
-          hn::PromoteTo(kColumns, hn::LoadU(bytes, values + c)), flip);
+      const Vector pixel = hn::PromoteTo(kColumns, hn::LoadU(bytes, here + c));
+      Vector value = pixel;
+      if constexpr (kWeighted) {
+        const std::uint8_t* const weighed = values + y * of.values.stride_bytes;
+        value = hn::PromoteTo(kColumns, hn::LoadU(bytes, weighed + c));
+      }
+      columns[k].add(y, lanes_between(c, first, last), pixel, value, flip);
     }
   }
   RegionSums sums = reduce<kVectors>(columns);
@@ -167,6 +175,16 @@ HWY_INLINE RegionSums sum(const SumsOf& of, const Component& component, int firs
   }
   if (of.polarity == core::Polarity::bright) sums.faintest_dn = 255 - sums.faintest_dn;
   return sums;
+}
+
+// If so many vectors hold the component.
+template <int kVectors>
+HWY_INLINE bool try_sum(const SumsOf& of, const Component& component, RegionSums& sums) {
+  const int x = first_column(component, of.pixels.width_px, kVectors);
+  if (x < 0) return false;
+  const bool weighted = of.values.data != of.pixels.data;
+  sums = weighted ? sum<kVectors, true>(of, component, x) : sum<kVectors, false>(of, component, x);
+  return true;
 }
 
 }  // namespace narrow

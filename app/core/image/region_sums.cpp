@@ -142,21 +142,15 @@ RegionSums sum_wide(const SumsOf& of, const Component& component) {
   return sums;
 }
 
-RegionSums sum_component(const SumsOf& of, const Component& component) {
+void sum_component(const SumsOf& of, const Component& component, RegionSums& sums) {
 #if HWY_TARGET != HWY_SCALAR  // one lane holds no columns
-  const int width_px = of.pixels.width_px;
-  if (const int x = narrow::first_column(component, width_px, 1); x >= 0) {
-    return narrow::sum<1>(of, component, x);
-  }
-  if (const int x = narrow::first_column(component, width_px, 2); x >= 0) {
-    return narrow::sum<2>(of, component, x);
-  }
+  if (narrow::try_sum<1>(of, component, sums) || narrow::try_sum<2>(of, component, sums)) return;
 #endif
-  return sum_wide(of, component);
+  sums = sum_wide(of, component);
 }
 
 void sum_all(const SumsOf& of, std::span<const std::uint32_t> which, RegionSums* sums) {
-  for (const std::uint32_t i : which) *sums++ = sum_component(of, of.components[i]);
+  for (const std::uint32_t i : which) sum_component(of, of.components[i], *sums++);
 }
 
 }  // namespace HWY_NAMESPACE

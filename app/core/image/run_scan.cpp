@@ -3,14 +3,21 @@
 #include <algorithm>
 #include <bit>
 
-namespace dottrack::image {
+// Not for its vectors, but for the bit counting that comes with the processor's instructions.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "app/core/image/run_scan.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, by its rules.
+#include <hwy/highway.h>
 
-namespace {
+HWY_BEFORE_NAMESPACE();
+namespace dottrack::image {
+namespace HWY_NAMESPACE {
 
 // Writes the positions of the set bits, and garbage behind them; returns how many. Two without a
 // branch: more in one word are rare, and whether there are none, one or two cannot be predicted.
 template <PixelKey Run::*kEnd>
-std::size_t write_positions(std::uint64_t bits, PixelKey key, Run* runs) {
+HWY_INLINE std::size_t write_positions(std::uint64_t bits, PixelKey key, Run* runs) {
   constexpr std::uint64_t kNotZero = std::uint64_t{1} << 63U;
   const std::uint64_t second = bits & (bits - 1);
   runs[0].*kEnd = key + std::countr_zero(bits | kNotZero);
@@ -22,11 +29,47 @@ std::size_t write_positions(std::uint64_t bits, PixelKey key, Run* runs) {
   return count;
 }
 
-}  // namespace
+// A run begins (ends) at a set pixel whose left (right) neighbour is clear, unless no neighbour at
+// all is set. Whether a word has such a pixel cannot be predicted, so there is no branch for it.
+HWY_INLINE std::size_t find_ends(const Bitmap& bitmap, std::span<const PixelKey> words,
+                                 EndWord* found) {
+  EndWord* end = found;
+  for (const PixelKey key : words) {
+    const std::uint64_t* here = bitmap.word(key);
+    const std::uint64_t left = *here << 1U | *(here - 1) >> 63U;
+    const std::uint64_t right = *here >> 1U | *(here + 1) << 63U;
+    const std::uint64_t beside = *(here - Bitmap::kRowWords) | *(here + Bitmap::kRowWords);
+    const std::uint64_t first = *here & ~left & (right | beside);
+    const std::uint64_t last = *here & ~right & (left | beside);
+    *end = {first, last, key};
+    end += (first | last) != 0;
+  }
+  return static_cast<std::size_t>(end - found);
+}
+
+// The k-th beginning belongs to the k-th end.
+RunCounts scan_words(const Bitmap& bitmap, std::span<const PixelKey> words, EndWord* scratch,
+                     Run* runs, RunCounts counts) {
+  const std::size_t end_words = find_ends(bitmap, words, scratch);
+  for (std::size_t i = 0; i < end_words; ++i) {
+    const EndWord& word = scratch[i];
+    counts.firsts += write_positions<&Run::first>(word.first, word.key, runs + counts.firsts);
+    counts.lasts += write_positions<&Run::last>(word.last, word.key, runs + counts.lasts);
+  }
+  return counts;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace dottrack::image
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace dottrack::image {
+
+HWY_EXPORT(scan_words);
 
 void RunList::clear() {
-  size_ = 0;
-  lasts_ = 0;
+  counts_ = {};
   overflow_ = 0;
   words_scanned_ = 0;
   rows_searched_ = 0;
@@ -40,53 +83,25 @@ void RunList::scan(const Bitmap& bitmap, int y_end) {
   if (overflow_ == 0) rows_searched_ = y_end;
   while (words_scanned_ < words_end) {
     const std::size_t count = std::min(words_end - words_scanned_, kMaxWords);
-    const std::size_t size_before = size_;
-    add_runs(find_ends(bitmap, listed.subspan(words_scanned_, count)));
+    const std::size_t size_before = size();
+    counts_ = HWY_DYNAMIC_DISPATCH(scan_words)(bitmap, listed.subspan(words_scanned_, count),
+                                               end_words_.data(), runs_.data(), counts_);
     words_scanned_ += count;
-    if (size_ > kCapacity || overflow_ > 0) take_back_rows_that_overflow(size_before);
+    if (size() > kCapacity || overflow_ > 0) take_back_rows_that_overflow(size_before);
   }
-}
-
-// A run begins (ends) at a set pixel whose left (right) neighbour is clear, unless no neighbour at
-// all is set. Whether a word has such a pixel cannot be predicted, so there is no branch for it.
-std::size_t RunList::find_ends(const Bitmap& bitmap, std::span<const PixelKey> words) {
-  EndWord* end = end_words_.data();
-  for (const PixelKey key : words) {
-    const std::uint64_t* here = bitmap.word(key);
-    const std::uint64_t left = *here << 1U | *(here - 1) >> 63U;
-    const std::uint64_t right = *here >> 1U | *(here + 1) << 63U;
-    const std::uint64_t beside = *(here - Bitmap::kRowWords) | *(here + Bitmap::kRowWords);
-    const std::uint64_t first = *here & ~left & (right | beside);
-    const std::uint64_t last = *here & ~right & (left | beside);
-    *end = {first, last, key};
-    end += (first | last) != 0;
-  }
-  return static_cast<std::size_t>(end - end_words_.data());
-}
-
-// The k-th beginning belongs to the k-th end.
-void RunList::add_runs(std::size_t end_words) {
-  std::size_t firsts = size_;
-  std::size_t lasts = lasts_;
-  for (std::size_t i = 0; i < end_words; ++i) {
-    const EndWord& word = end_words_[i];
-    firsts += write_positions<&Run::first>(word.first, word.key, runs_.data() + firsts);
-    lasts += write_positions<&Run::last>(word.last, word.key, runs_.data() + lasts);
-  }
-  size_ = firsts;
-  lasts_ = lasts;
 }
 
 void RunList::take_back_rows_that_overflow(std::size_t size_before) {
-  const std::size_t size_with = size_;
+  const std::size_t size_with = size();
+  std::size_t kept = size_before;
   if (overflow_ == 0) {
     rows_searched_ = row(runs_[kCapacity].first);
-    while (size_ > 0 && row(runs_[size_ - 1].first) >= rows_searched_) --size_;
-  } else {
-    size_ = size_before;
+    kept = size_with;
+    while (kept > 0 && row(runs_[kept - 1].first) >= rows_searched_) --kept;
   }
-  lasts_ = size_;
-  overflow_ += static_cast<std::uint32_t>(size_with - size_);
+  counts_ = {kept, kept};
+  overflow_ += static_cast<std::uint32_t>(size_with - kept);
 }
 
 }  // namespace dottrack::image
+#endif

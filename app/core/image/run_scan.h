@@ -16,6 +16,19 @@ struct Run {
   PixelKey last;
 };
 
+// One word's part of the runs: one bit for the first and for the last pixel of each.
+struct EndWord {
+  std::uint64_t first;
+  std::uint64_t last;
+  PixelKey key;
+};
+
+// A run may have begun in one word and end in another.
+struct RunCounts {
+  std::size_t firsts = 0;
+  std::size_t lasts = 0;
+};
+
 class RunList {
  public:
   static constexpr std::size_t kCapacity = 131072;
@@ -26,31 +39,22 @@ class RunList {
   // out, as is everything below them, and counted.
   void scan(const Bitmap& bitmap, int y_end);
 
-  std::size_t size() const { return size_; }
+  std::size_t size() const { return counts_.firsts; }
   const Run& operator[](std::size_t i) const { return runs_[i]; }
   std::uint32_t overflow() const { return overflow_; }  // runs left out
   // Rows from the top whose runs are all here, of those that were scanned.
   int rows_searched() const { return rows_searched_; }
 
  private:
-  // One word's part of the runs: one bit for the first and for the last pixel of each.
-  struct EndWord {
-    std::uint64_t first;
-    std::uint64_t last;
-    PixelKey key;
-  };
   // So many words at a time: their runs surely fit behind the last.
   static constexpr std::size_t kMaxWords = 256;
   static constexpr std::size_t kSpare = kMaxWords * (Bitmap::kWordBits / 2) + 2;
 
-  std::size_t find_ends(const Bitmap& bitmap, std::span<const PixelKey> words);
-  void add_runs(std::size_t end_words);
   void take_back_rows_that_overflow(std::size_t size_before);
 
   std::array<EndWord, kMaxWords + 1> end_words_{};
   std::array<Run, kCapacity + kSpare> runs_{};
-  std::size_t size_ = 0;
-  std::size_t lasts_ = 0;  // a run may have begun in one word and end in another
+  RunCounts counts_;
   std::uint32_t overflow_ = 0;
   std::size_t words_scanned_ = 0;
   int rows_searched_ = 0;

@@ -143,12 +143,12 @@ TEST_F(WatchTest, ASymmetricTargetIsNeverLockedOnTo) {
 
 class HeldBackTest : public testing::Test {
  protected:
-  // Three dots among so much clutter that a triangle is found by chance now and then.
+  // Three dots among clutter that offers a triangle by chance now and then.
   HeldBackTest() : room_(3) { room_.rig.limits.max_false_lock_probability = 1e-9; }
   const TickResult& show(Tracker& tracker, const Pose& pose) {
     room_.clear();
     room_.paint_vehicle(pose);
-    room_.paint_clutter(40, 12);
+    room_.paint_clutter(15, 12);
     return tracker.step(room_.frames());
   }
 
