@@ -148,7 +148,7 @@ class HeldBackTest : public testing::Test {
   const TickResult& show(Tracker& tracker, const Pose& pose) {
     room_.clear();
     room_.paint_vehicle(pose);
-    room_.paint_clutter(15, 12);
+    room_.paint_clutter(6, 12);
     return tracker.step(room_.frames());
   }
 
