@@ -38,7 +38,7 @@ void acquire(benchmark::State& state) {
 }
 
 void track(benchmark::State& state) {
-  RoomScene scene(4);
+  RoomScene scene(static_cast<std::size_t>(state.range(0)));
   core::Tracker tracker(scene.rig());
   const auto frames = scene.frames();
   tracker.step(frames);
@@ -51,7 +51,7 @@ void track(benchmark::State& state) {
 }
 
 BENCHMARK(acquire)->Name("acquire/heavy")->Arg(4)->Arg(8)->Unit(benchmark::kMicrosecond);
-BENCHMARK(track)->Name("track/12cameras")->Unit(benchmark::kMicrosecond);
+BENCHMARK(track)->Name("track/12cameras")->Arg(4)->Arg(8)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace dottrack::bench
