@@ -51,9 +51,11 @@ void acquire_sim(benchmark::State& state) {
   acquire(state, SimScene::of(static_cast<std::size_t>(state.range(0))));
 }
 
-void track(benchmark::State& state) {
-  RoomScene scene(4);
-  core::Tracker tracker(scene.rig());
+void track_at(benchmark::State& state, int watch_every_ticks) {
+  RoomScene scene(static_cast<std::size_t>(state.range(0)));
+  core::Rig rig = scene.rig();
+  rig.limits.watch_every_ticks = watch_every_ticks;
+  core::Tracker tracker(rig);
   const auto frames = scene.frames();
   tracker.step(frames);
   bool right = true;
@@ -62,6 +64,14 @@ void track(benchmark::State& state) {
     right = right && is_right(result, RoomScene::place_m()) && result.reset_count == 1;
   }
   if (!right) state.SkipWithError("the target was not tracked");
+}
+
+void track(benchmark::State& state) {
+  track_at(state, 0);
+}
+
+void track_and_watch(benchmark::State& state) {
+  track_at(state, 1);
 }
 
 // As the tracker looks through the simulator's images.
@@ -93,7 +103,12 @@ void identify_sim(benchmark::State& state) {
 BENCHMARK(identify_sim)->Name("identify/sim")->Unit(benchmark::kMicrosecond);
 BENCHMARK(acquire_heavy)->Name("acquire/heavy")->Arg(4)->Arg(8)->Unit(benchmark::kMicrosecond);
 BENCHMARK(acquire_sim)->Name("acquire/sim")->Arg(4)->Arg(8)->Unit(benchmark::kMicrosecond);
-BENCHMARK(track)->Name("track/12cameras")->Unit(benchmark::kMicrosecond);
+BENCHMARK(track)->Name("track/12cameras")->Arg(4)->Arg(8)->Unit(benchmark::kMicrosecond);
+BENCHMARK(track_and_watch)
+    ->Name("track_and_watch/12cameras")
+    ->Arg(4)
+    ->Arg(8)
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace dottrack::bench

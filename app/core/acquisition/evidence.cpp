@@ -28,7 +28,14 @@ constexpr double kLeastForSizes = -8.0;
 
 constexpr double kLogTwoPi = 1.8378770664093453;
 
+// A lock on a pose is wrong when a dot of the target is further than this from where it should be.
+constexpr double kElsewhere_m = 0.05;
+
+// That something stands around that is just like the target: one in a hundred million.
+constexpr double kLogCopy = -18.420680743952367;
+
 constexpr double kLargestExponent = 600.0;
+constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
 double log_orientations(const core::Target& target) {
   const double all = 8.0 * std::numbers::pi * std::numbers::pi;
@@ -86,7 +93,8 @@ struct Weighing {
     return sum;
   }
 
-  // Of two of the target's dots and clutter at the third's place, to clutter.
+  // Of two of the target's dots and clutter at the third's place, to clutter. A target that hides
+  // its third dot needs clutter only somewhere on a ring.
   double log_odds_of_pair(std::size_t i, std::size_t j) const {
     const std::array<Witness, 2> pair = {witnesses[i], witnesses[j]};
     return log_prior(target, pair.size()) + log_sizes(target, pair, clutter) +
@@ -94,12 +102,38 @@ struct Weighing {
            log_dot(j);
   }
 
-  // Of clutter, or two of three dots, to clutter. A target that hides its third dot needs clutter
-  // only somewhere on a ring.
-  double log_odds_of_less() const {
-    double sum = 1.0;
+  // Of the target's dots but for one, with clutter at its place, to clutter. Nothing where the pose
+  // is the same without it: then the lock is right all the same.
+  double log_odds_without(std::size_t left_out) const {
+    Witnesses others;
+    RigidDots places;
+    double sum = 0.0;
     for (std::size_t i = 0; i < witnesses.size(); ++i) {
-      const double odds = log_odds_of_pair(i, (i + 1) % witnesses.size());
+      if (i == left_out) continue;
+      others.push_back(witnesses[i]);
+      places.push_back(dots[i]);
+      sum += log_dot(i);
+    }
+    if (!moves(as_span(places))) return kNothing;
+    return sum + log_prior(target, others.size()) + log_sizes(target, as_span(others), clutter) +
+           log_fit(as_span(places), max_rms_residual_m) + log_anywhere();
+  }
+
+  bool moves(std::span<const RigidDot> places) const {
+    RigidStep step;
+    if (!best_step(places, max_rms_residual_m, step)) return true;
+    return std::any_of(target.dots.begin(), target.dots.end(), [&](const core::TargetDot& dot) {
+      return step.of(dot.position_m).norm() > kElsewhere_m;
+    });
+  }
+
+  // Of all that is wrong, to clutter: nothing but clutter, or clutter for one dot.
+  double log_odds_of_wrong() const {
+    const std::size_t n = witnesses.size();
+    double sum = 1.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double odds =
+          n > core::kMinDots ? log_odds_without(i) : log_odds_of_pair(i, (i + 1) % n);
       sum += std::exp(std::min(odds, kLargestExponent));
     }
     return std::log(sum);
@@ -134,27 +168,39 @@ RigidDots rigid_dots(const core::Target& target, std::span<const Witness> witnes
 double log_odds_of(const core::Target& target, std::span<const Witness> witnesses,
                    const core::Pose& pose, std::span<const Finalist> finalists,
                    double max_rms_residual_m) {
-  if (witnesses.size() < core::kMinDots) return -std::numeric_limits<double>::infinity();
+  if (witnesses.size() < core::kMinDots) return kNothing;
   const Clutter clutter(target, witnesses, finalists);
   const Weighing weighing{target, witnesses, clutter, rigid_dots(target, witnesses, pose),
                           max_rms_residual_m};
-  // Of more dots than three, two that are the target's and clutter at all the others' places are
-  // too improbable to matter.
-  const double odds = weighing.log_odds();
-  return witnesses.size() > core::kMinDots ? odds : odds - weighing.log_odds_of_less();
+  return weighing.log_odds() - weighing.log_odds_of_wrong();
+}
+
+double rival_log_odds(const CandidateLock& candidate, const CandidateLock& rival) {
+  const bool shared =
+      std::any_of(candidate.witnesses.begin(), candidate.witnesses.end(), [&](const Witness& a) {
+        return std::any_of(rival.witnesses.begin(), rival.witnesses.end(), [&](const Witness& b) {
+          return (a.position_m - b.position_m).norm() <= a.diameter_m;
+        });
+      });
+  return shared ? rival.log_odds : with_copy(candidate.log_odds, rival.log_odds);
+}
+
+double with_copy(double log_odds, double rival_log_odds) {
+  // Odds of at least one make the copy as probable as the candidate.
+  const double copy = log_odds + std::min(0.0, kLogCopy + rival_log_odds);
+  return std::max(copy, rival_log_odds);
 }
 
 double false_lock_probability(double log_odds, std::span<const double> rivals) {
-  if (std::isnan(log_odds)) return 1.0;
   double largest = std::max(0.0, log_odds);
+  bool known = !std::isnan(log_odds);
   for (const double rival : rivals) {
-    if (!std::isnan(rival)) largest = std::max(largest, rival);
+    largest = std::max(largest, rival);
+    known = known && !std::isnan(rival);
   }
-  if (std::isinf(largest)) return 1.0;  // infinite odds are no evidence but a mistake
+  if (!known || std::isinf(largest)) return 1.0;  // infinite odds are no evidence but a mistake
   double wrong = std::exp(-largest);
-  for (const double rival : rivals) {
-    if (!std::isnan(rival)) wrong += std::exp(rival - largest);
-  }
+  for (const double rival : rivals) wrong += std::exp(rival - largest);
   return static_cast<float>(wrong / (wrong + std::exp(log_odds - largest)));
 }
 

@@ -42,12 +42,14 @@ struct CandidateLock {
   Witnesses witnesses;
   // Natural logarithm of the odds of target to chance, from this tick alone.
   double log_odds = 0.0;
-  // The same of other explanations of the same images that are nearly as good: another labelling of
-  // the same dots, another place. At most a few; the best of each kind.
+  // Of other explanations of the same images that are nearly as good, at another pose: another
+  // labelling of the same dots, another place; as rival_log_odds counts them. At most a few; the
+  // best of each kind.
   StaticVector<double, 4> rivals;
 };
 
-// The log odds of one tick from places, sizes and views. `finalists`: all there are, the
+// The log odds of one tick from places, sizes and views: of the target to everything that is not
+// it, clutter alone or clutter in the place of one dot. `finalists`: all there are, the
 // candidate's included; what is neither the candidate's nor a splinter of it is clutter. Takes
 // about a nanosecond for every pair of a witness and a finalist.
 double log_odds_of(const core::Target& target, std::span<const Witness> witnesses,
@@ -60,10 +62,17 @@ using RigidDots = StaticVector<RigidDot, core::kMaxDots>;
 RigidDots rigid_dots(const core::Target& target, std::span<const Witness> witnesses,
                      const core::Pose& pose);
 
+// What another candidate of the same images counts as among a candidate's rivals. One that shares
+// none of its dots is chance, as its own log odds say, or it is no chance: a copy of the target.
+// One that is too good for chance is as probably the target as the candidate is, whichever fits
+// better.
+double rival_log_odds(const CandidateLock& candidate, const CandidateLock& rival);
+// The same of the log odds of two that share no dot.
+double with_copy(double log_odds, double rival_log_odds);
+
 // That the candidate is wrong, given what else explains the images as well: (1 + sum of the
-// rivals' odds) / (1 + sum of all odds). Does not overflow for any log odds; 1 for a log odds that
-// is no number. Rounded to single precision: the last bits of a logarithm differ from library to
-// library.
+// rivals' odds) / (1 + sum of all odds). Does not overflow for any log odds; 1 when one is no
+// number. Rounded to single precision: the last bits of a logarithm differ from library to library.
 double false_lock_probability(double log_odds, std::span<const double> rivals);
 
 }  // namespace dottrack::acquisition

@@ -87,13 +87,15 @@ double GatheredEvidence::reach_m() const {
   return target_->max_step_m * (1.0 + misses_);
 }
 
-bool GatheredEvidence::continues(const CandidateLock& candidate, const Place& place) const {
-  if (!rests_on_same_dots(candidate)) return false;
-  for (std::size_t i = 0; i < place.dot_m.size(); ++i) {
-    const double noise_m = kMoved * (place.sigma_m[i] + last_.sigma_m[i]);
-    if ((place.dot_m[i] - last_.dot_m[i]).norm() > reach_m() + noise_m) return false;
-  }
-  return true;
+// Since the last candidate, by all dots of the target, those that are not seen too.
+bool GatheredEvidence::can_have_come(const CandidateLock& candidate, const Place& place) const {
+  const double noise_m = kMoved * (*std::max_element(place.sigma_m.begin(), place.sigma_m.end()) +
+                                   *std::max_element(last_.sigma_m.begin(), last_.sigma_m.end()));
+  return std::all_of(target_->dots.begin(), target_->dots.end(), [&](const core::TargetDot& dot) {
+    const Vector3d now = candidate.pose.orientation * dot.position_m + candidate.pose.position_m;
+    const Vector3d before = last_pose_.orientation * dot.position_m + last_pose_.position_m;
+    return (now - before).norm() <= reach_m() + noise_m;
+  });
 }
 
 // Every dot is elsewhere: with one at its old place, clutter need only match the others anew.
@@ -173,8 +175,10 @@ double GatheredEvidence::add(const CandidateLock& candidate, Time captured) {
   double rivals = log_rivals(candidate);
   if (ticks_ == 0) {
     begin(candidate);
-  } else if (!continues(candidate, place)) {
-    rivals = std::max(rivals, std::min(0.0, last_log_odds_ - candidate.log_odds));
+  } else if (!can_have_come(candidate, place)) {
+    rivals = std::max(rivals, with_copy(candidate.log_odds, last_log_odds_) - candidate.log_odds);
+    begin(candidate);
+  } else if (!rests_on_same_dots(candidate)) {
     begin(candidate);
   }
   visit(candidate, place);
@@ -182,6 +186,7 @@ double GatheredEvidence::add(const CandidateLock& candidate, Time captured) {
   misses_ = 0;
   captured_ = captured;
   last_log_odds_ = candidate.log_odds;
+  last_pose_ = candidate.pose;
   take_fit(candidate);
   take_rivals(rivals);
   return probability();

@@ -52,7 +52,7 @@ class GatheredEvidence {
   static Place place_of(const CandidateLock& candidate);
   bool rests_on_same_dots(const CandidateLock& candidate) const;
   double reach_m() const;
-  bool continues(const CandidateLock& candidate, const Place& place) const;
+  bool can_have_come(const CandidateLock& candidate, const Place& place) const;
   void begin(const CandidateLock& candidate);
   void visit(const CandidateLock& candidate, const Place& place);
   bool is_distinct(const Place& place) const;
@@ -67,6 +67,7 @@ class GatheredEvidence {
   int misses_ = 0;
   Time captured_{};
   double last_log_odds_ = 0.0;
+  core::Pose last_pose_;
   Place last_;
   std::array<std::size_t, core::kMaxDots> dot_{};  // of the target, by witness
   RigidDots sums_;                                 // of errors and covariances over the ticks

@@ -19,6 +19,8 @@ using Matrix36d = Eigen::Matrix<double, 3, 6>;
 // Systematic errors, as parts of the residual limit; all equally probable.
 constexpr std::array<double, 5> kSystematicParts = {0.01, 0.025, 0.065, 0.16, 0.4};
 
+constexpr double kTypicalPart = 0.065;
+
 constexpr double kLogTwoPi = 1.8378770664093453;
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
@@ -37,29 +39,41 @@ Vector3d middle_of(std::span<const RigidDot> dots) {
   return sum / static_cast<double>(dots.size());
 }
 
-// log_fit with one systematic error. The integral of a normal distribution over the six
-// coordinates of the pose, that the errors are linear in.
-double log_fit_at(std::span<const RigidDot> dots, const Vector3d& middle_m, double systematic_m) {
+// The dots' normal distributions as one of the six coordinates of the pose, that their errors are
+// linear in.
+struct PoseNormal {
   Matrix6d information = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
   double chi2 = 0.0;
   double log_det = 0.0;
+  bool ok = true;
+};
+
+PoseNormal pose_normal(std::span<const RigidDot> dots, const Vector3d& middle_m,
+                       double systematic_m) {
+  PoseNormal sum;
   for (const RigidDot& dot : dots) {
     const Matrix3d covariance =
         dot.covariance_m2 + systematic_m * systematic_m * Matrix3d::Identity();
     const Eigen::LLT<Matrix3d> root(covariance);
-    if (root.info() != Eigen::Success) return kImpossible;
+    sum.ok = sum.ok && root.info() == Eigen::Success;
     const Matrix36d j = root.matrixL().solve(pose_jacobian(dot.arm_m - middle_m));
     const Vector3d error = root.matrixL().solve(dot.error_m);
-    information += j.transpose() * j;
-    gradient += j.transpose() * error;
-    chi2 += error.squaredNorm();
-    log_det += 2.0 * root.matrixLLT().diagonal().array().log().sum();
+    sum.information += j.transpose() * j;
+    sum.gradient += j.transpose() * error;
+    sum.chi2 += error.squaredNorm();
+    sum.log_det += 2.0 * root.matrixLLT().diagonal().array().log().sum();
   }
-  const Eigen::LLT<Matrix6d> root(information);
-  if (root.info() != Eigen::Success) return kImpossible;
-  chi2 -= root.matrixL().solve(gradient).squaredNorm();
-  log_det += 2.0 * root.matrixLLT().diagonal().array().log().sum();
+  return sum;
+}
+
+// log_fit with one systematic error.
+double log_fit_at(std::span<const RigidDot> dots, const Vector3d& middle_m, double systematic_m) {
+  const PoseNormal normal = pose_normal(dots, middle_m, systematic_m);
+  const Eigen::LLT<Matrix6d> root(normal.information);
+  if (!normal.ok || root.info() != Eigen::Success) return kImpossible;
+  const double chi2 = normal.chi2 - root.matrixL().solve(normal.gradient).squaredNorm();
+  const double log_det = normal.log_det + 2.0 * root.matrixLLT().diagonal().array().log().sum();
   const auto freedom = 3.0 * static_cast<double>(dots.size()) - 6.0;
   return -0.5 * (chi2 + log_det + freedom * kLogTwoPi);
 }
@@ -86,6 +100,16 @@ double log_fit(std::span<const RigidDot> dots, double max_rms_residual_m) {
   return over_systematic(max_rms_residual_m, [&](double systematic_m) {
     return log_fit_at(dots, middle_m, systematic_m);
   });
+}
+
+bool best_step(std::span<const RigidDot> dots, double max_rms_residual_m, RigidStep& step) {
+  const Vector3d middle_m = middle_of(dots);
+  const PoseNormal normal = pose_normal(dots, middle_m, kTypicalPart * max_rms_residual_m);
+  const Eigen::LLT<Matrix6d> root(normal.information);
+  if (!normal.ok || root.info() != Eigen::Success) return false;
+  const Vector6d best = root.solve(normal.gradient);
+  step = {middle_m, best.head<3>(), best.tail<3>()};
+  return true;
 }
 
 double log_pair_fit(const RigidDot& a, const RigidDot& b, double max_rms_residual_m) {

@@ -24,7 +24,22 @@ struct RigidDot {
 // max_rms_residual_m, each size about as probable as any other on a scale of logarithms.
 double log_fit(std::span<const RigidDot> dots, double max_rms_residual_m);
 
-// The same for two dots, per m^6: they leave a turn about their line open.
+// A small motion: a turn about a point, and a shift.
+struct RigidStep {
+  Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d turn_rad = Eigen::Vector3d::Zero();
+
+  Eigen::Vector3d of(const Eigen::Vector3d& place_m) const {
+    return shift_m + turn_rad.cross(place_m - middle_m);
+  }
+};
+
+// The step from the pose that the errors are taken from to the one that fits these dots best.
+// False when they do not determine one.
+bool best_step(std::span<const RigidDot> dots, double max_rms_residual_m, RigidStep& step);
+
+// log_fit for two dots, per m^6: they leave a turn about their line open.
 double log_pair_fit(const RigidDot& a, const RigidDot& b, double max_rms_residual_m);
 
 }  // namespace dottrack::acquisition

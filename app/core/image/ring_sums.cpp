@@ -111,8 +111,8 @@ void subtract(GreySums& sums, int x, int y, int v) {
 
 void drop(const ImageView& patch, const PatchRows& rows, const IntegerPlane& plane,
           GreySums& ring) {
-  HWY_ALIGN std::array<std::int16_t, kPatchColumns_px> across;
-  for (std::size_t x = 0; x < across.size(); ++x) {
+  std::array<std::int16_t, kPatchColumns_px> across{};
+  for (std::size_t x = 0; x < static_cast<std::size_t>(patch.width_px); ++x) {
     across[x] = lane_units(plane.per_x * static_cast<std::int64_t>(x));
   }
   const Vector iota = hn::Iota(kLanes, 0);

@@ -43,7 +43,8 @@ struct PatchSums {
   GreySums ring;
 };
 
-// Integer arithmetic: the same on every processor. `patch` is readable for kPatchColumns_px.
+// Integer arithmetic: the same on every processor. `patch` has width_px columns and is
+// readable for kPatchColumns_px.
 PatchSums sum_patch(const ImageView& patch, const PatchRows& rows);
 
 // A plane of grey values and how far a pixel may be off it, all in units of kPlaneUnit_dn.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -119,6 +120,75 @@ TEST_F(DotCentreTest, ASlopingBackgroundDoesNotPullIt) {
   }
   EXPECT_LT(worst_px, 0.03);
   EXPECT_GT(worst_region_px, worst_px);
+}
+
+TEST_F(DotCentreTest, DarkDotsHaveACentreToo) {
+  for (int i = 0; i < 20; ++i) {
+    Disc disc{.centre = anywhere(), .contrast_dn = 120.0, .slope_dn = 0.5};
+    std::vector<std::uint8_t> image = paint(disc, random_);
+    const ImageView view{image.data(), kSize, kSize, kSize};
+    for (std::uint8_t& pixel : image) pixel = static_cast<std::uint8_t>(255 - pixel);
+    Region region;
+    region.centroid_px = disc.centre + Eigen::Vector2d(0.2, -0.1);
+    region.semi_major_px = 4.4;
+    region.semi_minor_px = 4.2;
+    EXPECT_LT((dot_centre(view, region) - disc.centre).norm(), 0.03);
+  }
+}
+
+// A second bright disc stands in the ring: its pixels are no background.
+TEST_F(DotCentreTest, ANeighbourInTheRingDoesNotPullIt) {
+  for (int i = 0; i < 20; ++i) {
+    Disc disc{.centre = anywhere(), .noise_dn = 1.0};
+    std::vector<std::uint8_t> image = paint(disc, random_);
+    Disc neighbour{.centre = disc.centre + Eigen::Vector2d(11.0, 3.0), .diameter_px = 5.0};
+    const std::vector<std::uint8_t> other = paint(neighbour, random_);
+    for (std::size_t k = 0; k < image.size(); ++k) image[k] = std::max(image[k], other[k]);
+    Region region;
+    region.centroid_px = disc.centre + Eigen::Vector2d(0.2, -0.1);
+    region.semi_major_px = 4.3;
+    region.semi_minor_px = 4.3;
+    EXPECT_LT((dot_centre({image.data(), kSize, kSize, kSize}, region) - disc.centre).norm(), 0.05);
+  }
+}
+
+TEST_F(DotCentreTest, IsTheSameWhereverTheImageEnds) {
+  constexpr int kWide = 400;
+  for (int i = 0; i < 50; ++i) {
+    const Disc disc{.centre = anywhere(), .slope_dn = 0.4, .noise_dn = 4.0};
+    const std::vector<std::uint8_t> image = paint(disc, random_);
+    std::vector<std::uint8_t> wide(std::size_t{kWide} * kSize, 200);
+    for (std::size_t y = 0; y < kSize; ++y) {
+      std::copy_n(image.begin() + static_cast<long>(y * kSize), kSize,
+                  wide.begin() + static_cast<long>(y * kWide));
+    }
+    Region region;
+    region.centroid_px = disc.centre;
+    region.semi_major_px = 5.0;
+    region.semi_minor_px = 4.0;
+    region.angle_rad = 0.1 * i;
+    const Eigen::Vector2d centre = dot_centre({image.data(), kSize, kSize, kSize}, region);
+    EXPECT_NE(centre, region.centroid_px);
+    EXPECT_EQ(dot_centre({wide.data(), kWide, kSize, kWide}, region), centre);
+  }
+}
+
+// Cut off by the image's edges, down to nothing: some place in the picture or the region's own.
+TEST_F(DotCentreTest, StaysByTheRegionAtTheImagesEdges) {
+  const std::vector<std::uint8_t> image = paint({.noise_dn = 20.0}, random_);
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  for (int i = 0; i < 3000; ++i) {
+    const int width = 1 + static_cast<int>(kSize * part(random_));
+    const int height = 1 + static_cast<int>(kSize * part(random_));
+    Region region;
+    region.centroid_px = {(width - 1) * part(random_), (height - 1) * part(random_)};
+    region.semi_major_px = 0.6 + 26.0 * part(random_);
+    region.semi_minor_px = 0.5 + (region.semi_major_px - 0.5) * part(random_);
+    region.angle_rad = 3.0 * part(random_) - 1.5;
+    const Eigen::Vector2d centre =
+        dot_centre({image.data(), std::min(width, kSize), std::min(height, kSize), kSize}, region);
+    EXPECT_LE((centre - region.centroid_px).norm(), 0.5 * region.semi_minor_px + 1e-9);
+  }
 }
 
 TEST_F(DotCentreTest, KeepsTheRegionsCentroidWhereTheDotIsTooLarge) {
