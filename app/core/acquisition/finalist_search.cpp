@@ -13,14 +13,18 @@ namespace dottrack::acquisition {
 namespace {
 
 // Work units of the steps, about 10 ns each on a desktop core.
-constexpr std::uint64_t kLookUnits = 2;     // whether a pair has a finalist already
-constexpr std::uint64_t kVerifyUnits = 40;  // what all cameras see at a point
-constexpr std::uint64_t kSolveUnits = 200;  // a finalist from its views
+constexpr std::uint64_t kLookUnits = 6;       // at a pair, through all cameras
+constexpr std::uint64_t kVerifyUnits = 15;    // what they see there
+constexpr std::uint64_t kSolveUnits = 150;    // a finalist from its views
+constexpr std::uint64_t kSolveTwoUnits = 50;  // from two
 
 // A finalist is dropped when each of its sightings belongs to one of at least so many times as many
 // views: then it is lines of sight to other dots that cross.
 constexpr int kManyTimesViews = 2;
 constexpr int kManyMoreViews = 3;
+
+// With two views a pair is not deferred: the search for two takes all pairs anew.
+constexpr int kLeastDeferred = 3;
 
 // A pair whose point fewer cameras see than were asked for.
 struct Deferred {
@@ -181,7 +185,7 @@ void FinalistSearch::Memory::match_next(WorkBudget& budget, core::AcquisitionCou
 void FinalistSearch::Memory::take_pair(WorkBudget& budget, core::AcquisitionCounts& counts) {
   const CandidatePair& pair = pairs[next_pair++];
   const int most_views = look_at(pair, budget, counts);
-  if (most_views < 2) return;
+  if (most_views < kLeastDeferred) return;
   const Deferred entry{
       {pair.camera[0], pair.camera[1]}, pair.sighting, static_cast<std::uint8_t>(most_views)};
   if (!try_push_back(deferred, entry)) again[pair.camera[0]].insert(pair.camera[1]);
@@ -203,7 +207,7 @@ void FinalistSearch::Memory::take_deferred(WorkBudget& budget, core::Acquisition
   } else {
     budget.spend(1);
   }
-  if (most_views >= 2) {
+  if (most_views >= kLeastDeferred) {
     entry.most_views = static_cast<std::uint8_t>(most_views);
     deferred[deferred_kept++] = entry;
   }
@@ -231,14 +235,18 @@ int FinalistSearch::Memory::look_at(const CandidatePair& pair, WorkBudget& budge
       pair.point_m, vague ? finder.seeing() : look,
       vague ? std::numeric_limits<double>::infinity() : kClose_px, alone, min_views);
   if (seen.cameras.size() < min_views) return min_views - 1;
-  budget.spend(kSolveUnits);
-  Finalist finalist;
-  if (find_finalist(views, finder, seen, pair.point_m, min_views, finalist) &&
-      finalist.cameras.size() >= min_views) {
-    place(finalist, budget, counts);
-    if (has_finalist(pair, false)) return 0;
+  if (seen.cameras.size() > 2) {
+    budget.spend(kSolveUnits);
+    Finalist finalist;
+    if (find_finalist(views, finder, seen, pair.point_m, min_views, finalist) &&
+        finalist.cameras.size() >= min_views) {
+      place(finalist, budget, counts);
+      if (has_finalist(pair, false)) return 0;
+    }
+    if (min_views > 2) return min_views - 1;
   }
-  if (min_views > 2) return min_views - 1;
+  budget.spend(kSolveTwoUnits);
+  Finalist finalist;
   if (refine_finalist(views, alone, finalist)) place(finalist, budget, counts);
   return 0;
 }
@@ -256,7 +264,10 @@ bool FinalistSearch::Memory::has_finalist(const CandidatePair& pair, bool count)
 
 void FinalistSearch::Memory::place(Finalist finalist, WorkBudget& budget,
                                    core::AcquisitionCounts& counts) {
-  while (merge_with_prior(finalist, budget)) {
+  // Two lines that agree were looked for before; whatever has both is not sure.
+  if (finalist.cameras.size() > 2 || !is_sure(finalist)) {
+    while (merge_with_prior(finalist, budget)) {
+    }
   }
   if (finalist.cameras.empty() || made_of_others(finalist)) return;
   if (!set.add(finalist)) ++counts.overflow;
