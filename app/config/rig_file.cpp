@@ -38,7 +38,8 @@ bool is_folder_name(std::string_view name) {
 
 class RigReader {
  public:
-  explicit RigReader(const std::filesystem::path& path) : path_(path), complaint_(path.string()) {}
+  RigReader(const std::filesystem::path& path, Targets judging)
+      : path_(path), judging_(judging), complaint_(path.string()) {}
 
   Result<RigConfig> read() {
     const Result<std::string> text = read_text_file(path_);
@@ -226,7 +227,8 @@ class RigReader {
     Result<TargetFile> file = parse_target_text(*text, path.string());
     if (!file) return complaint_.add(file.error());
     target.target.dots = file->dots;
-    if (complaint_.empty()) admit(target, *file, path.string(), sigma_m);
+    if (complaint_.empty() && judging_ == Targets::judged)
+      admit(target, *file, path.string(), sigma_m);
     config_.targets.push_back({std::move(target.name), target.target});
   }
 
@@ -275,6 +277,7 @@ class RigReader {
   }
 
   std::filesystem::path path_;
+  Targets judging_;
   Complaint complaint_;
   RigConfig config_;
   std::vector<std::size_t> name_lines_;
@@ -286,8 +289,8 @@ class RigReader {
 
 }  // namespace
 
-Result<RigConfig> load_rig(const std::filesystem::path& path) {
-  return RigReader(path).read();
+Result<RigConfig> load_rig(const std::filesystem::path& path, Targets targets) {
+  return RigReader(path, targets).read();
 }
 
 RigConfig with_target(RigConfig config, std::size_t index) {

@@ -42,9 +42,12 @@ struct RigConfig {
   std::vector<std::string> warnings;
 };
 
+enum class Targets : std::uint8_t { judged, taken_as_they_are };
+
 // An unknown key, a missing file, a unit that makes no sense or a degenerate target is an error
-// that names the file, the line and what was expected.
-Result<RigConfig> load_rig(const std::filesystem::path& path);
+// that names the file, the line and what was expected; so is, where targets are judged, an
+// ambiguous one.
+Result<RigConfig> load_rig(const std::filesystem::path& path, Targets targets = Targets::judged);
 
 // The same rig with another of its targets in force; index < config.targets.size().
 RigConfig with_target(RigConfig config, std::size_t index);

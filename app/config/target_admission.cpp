@@ -64,19 +64,20 @@ class Admission {
     complaint.add(file_.lines[moves.empty() ? 0 : moves.front().dot],
                   fmt::format("the target looks like itself: {}, misfits by {} RMS",
                               describe(worst, file_.names), millimetres(worst.misfit_m())),
-                  fmt::format("{} or more, with dots known to {}: {}, or set allow_ambiguous",
+                  fmt::format("{} or more, with dots known to {}: {}{}",
                               millimetres(judgement_.needed_m() / std::sqrt(worst.dots)),
-                              millimetres(rules_.sigma_m), advice));
+                              millimetres(rules_.sigma_m), advice,
+                              rules_.allow_ambiguous ? "" : ", or set allow_ambiguous"));
     return complaint.first();
   }
 
   std::string partial_ambiguity() const {
     const Relabelling& most = *judgement_.most;
     return fmt::format(
-        "while only {} of its {} dots are seen, some can be mistaken for others with dots known to "
-        "{}: {}, misfits by {} RMS; any {} of them cannot",
+        "{} of its {} dots can be mistaken for others while no more are seen, with dots known to "
+        "{}: {}, misfits by {} RMS",
         most.dots, judgement_.target_dots, millimetres(rules_.sigma_m), describe(most, file_.names),
-        millimetres(most.misfit_m()), judgement_.dots_needed());
+        millimetres(most.misfit_m()));
   }
 
   std::string conditioning() const {
@@ -118,8 +119,8 @@ std::string describe(const Relabelling& relabelling, std::span<const std::string
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::size_t label = relabelling.label[i];
     if (label == kLeftOut || label == i || ++moved > kMostNamed) continue;
-    from += " " + in_quotes(names[i]);
-    to += " " + in_quotes(names[label]);
+    from += fmt::format(" {}", in_quotes(names[i]));
+    to += fmt::format(" {}", in_quotes(names[label]));
   }
   const std::string others =
       moved > kMostNamed ? fmt::format(" and {} more", moved - kMostNamed) : "";
