@@ -118,8 +118,8 @@ std::string describe(const Relabelling& relabelling, std::span<const std::string
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::size_t label = relabelling.label[i];
     if (label == kLeftOut || label == i || ++moved > kMostNamed) continue;
-    from += " " + in_quotes(names[i]);
-    to += " " + in_quotes(names[label]);
+    from += fmt::format(" {}", in_quotes(names[i]));
+    to += fmt::format(" {}", in_quotes(names[label]));
   }
   const std::string others =
       moved > kMostNamed ? fmt::format(" and {} more", moved - kMostNamed) : "";
