@@ -116,7 +116,6 @@ struct FinalistSearch::Memory {
 void FinalistSearch::Memory::start(std::span<const CameraView> all, double diameter_m) {
   views = all;
   largest_diameter_m = diameter_m;
-  matcher.start();
   finder.start(all);
   order.start(all);
   set.clear();
@@ -139,10 +138,19 @@ bool FinalistSearch::Memory::advance(int views_wanted, WorkBudget& budget,
 }
 
 void FinalistSearch::Memory::begin_layer(int views_wanted) {
+  const int was = min_views;
   min_views = views_wanted;
   complete = false;
-  for (std::size_t a = 0; a < kMaxCameras; ++a) {
-    done[a] = CameraSet(static_cast<std::uint16_t>(done[a].bits() & ~again[a].bits()));
+  if (min_views > 2) {
+    for (std::size_t a = 0; a < kMaxCameras; ++a) {
+      done[a] = CameraSet(static_cast<std::uint16_t>(done[a].bits() & ~again[a].bits()));
+    }
+  } else {  // every pair counts now, however far its lines miss each other
+    done = {};
+    deferred.clear();
+  }
+  if (was == 0 || min_views == 2) {
+    matcher.start(min_views > 2 ? kSureResidual_px : std::numeric_limits<double>::infinity());
   }
   again = {};
   order.list(min_views, done, cameras);
@@ -228,18 +236,15 @@ int FinalistSearch::Memory::look_at(const CandidatePair& pair, WorkBudget& budge
                                     core::AcquisitionCounts& counts) {
   budget.spend(kLookUnits);
   if (has_finalist(pair, true)) return 0;
-  PointLook look;
-  finder.look(pair.point_m, look);
-  const bool strays = finder.miss_px(pair, look) > static_cast<float>(kSureResidual_px);
-  if (strays && min_views > 2) return 2;
   PointViews alone;
   for (std::size_t side = 0; side < 2; ++side) alone.set(pair.camera[side], pair.sighting[side]);
-  const int close = std::popcount(static_cast<unsigned>(look.close.bits() | alone.cameras.bits()));
+  const CameraSet look = finder.look(pair.point_m);
+  const int close = std::popcount(static_cast<unsigned>(look.bits() | alone.cameras.bits()));
   const bool vague = finder.is_vague(pair);
   if (close < min_views && !vague) return close;
   budget.spend(kVerifyUnits);
   const PointViews seen = finder.views_of(
-      pair.point_m, vague ? finder.seeing() : look.close,
+      pair.point_m, vague ? finder.seeing() : look,
       vague ? std::numeric_limits<double>::infinity() : kClose_px, alone, min_views);
   if (seen.cameras.size() < min_views) return min_views - 1;
   budget.spend(kSolveUnits);

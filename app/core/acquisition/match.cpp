@@ -16,6 +16,11 @@ bool within(double range_m, const core::Camera& camera) {
   return range_m >= camera.distance_min_m && range_m <= camera.distance_max_m;
 }
 
+bool is_close(const Sighting& sighting, const Eigen::Vector3d& point_m, double max_residual_px) {
+  return (sighting.pixel_of(point_m) - sighting.pixel).squaredNorm() <=
+         max_residual_px * max_residual_px;
+}
+
 void count(PairGate gate, core::AcquisitionCounts& counts) {
   ++counts.pairs_tested;
   switch (gate) {
@@ -74,13 +79,14 @@ PairGate test_pair(const CameraView& a, std::size_t sighting_a, const CameraView
   return PairGate::accepted;
 }
 
-void Matcher::start() {
+void Matcher::start(double max_residual_px) {
   prepared_ = {};
+  max_residual_px_ = max_residual_px;
 }
 
 const RayArrays& Matcher::rays(std::span<const CameraView> views, std::size_t camera) {
   if (!prepared_.contains(camera)) {
-    fill(rays_[camera], *views[camera].camera, views[camera].sightings);
+    fill(rays_[camera], *views[camera].camera, views[camera].sightings, max_residual_px_);
     prepared_.insert(camera);
   }
   return rays_[camera];
@@ -103,7 +109,12 @@ bool Matcher::match(std::span<const CameraView> views, std::size_t a, std::size_
     for (const PairFilter::Row& row : filter_.rows(next)) {
       budget.spend(1U + row.looked_at / kLooksInAUnit + kUnitsToTest * row.hits);
       for (const std::uint16_t j : filter_.hits(row)) {
-        const PairGate gate = test_pair(view_a, next, view_b, j, max_miss_m, pair);
+        PairGate gate = test_pair(view_a, next, view_b, j, max_miss_m, pair);
+        if (gate == PairGate::accepted &&
+            !(is_close(view_a.sightings[next], pair.point_m, max_residual_px_) &&
+              is_close(view_b.sightings[j], pair.point_m, max_residual_px_))) {
+          gate = PairGate::reprojection;
+        }
         count(gate, counts);
         if (gate == PairGate::accepted && !try_push_back(pairs, pair)) ++counts.overflow;
       }

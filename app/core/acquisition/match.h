@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "app/core/acquisition/pair_filter.h"
@@ -50,8 +51,10 @@ PairGate test_pair(const CameraView& a, std::size_t sighting_a, const CameraView
 // Finds all pairs of sightings of two cameras that test_pair accepts.
 class Matcher {
  public:
-  // Forgets what was prepared of the views: to be called whenever sightings have changed.
-  void start();
+  // Forgets what was prepared of the views: to be called whenever sightings have changed. Besides
+  // what test_pair asks for, a pair's point has to project to within max_residual_px of both
+  // sightings; what does not counts as refused for its reprojection.
+  void start(double max_residual_px = std::numeric_limits<double>::infinity());
 
   // Appends all accepted pairs between cameras a and b (indices into views), in the order of a's
   // and then b's sightings, from a's sighting `next` on. True when done; false when the budget ran
@@ -70,6 +73,7 @@ class Matcher {
 
   std::array<RayArrays, kMaxCameras> rays_;
   CameraSet prepared_;
+  double max_residual_px_ = std::numeric_limits<double>::infinity();
   PairFilter filter_;
 };
 

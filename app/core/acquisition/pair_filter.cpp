@@ -8,6 +8,10 @@
 // After foreach_target.h, by its rules.
 #include <hwy/highway.h>
 
+namespace dottrack::acquisition {
+void sort_many(std::uint16_t* hits, std::size_t n);
+}
+
 HWY_BEFORE_NAMESPACE();
 namespace dottrack::acquisition {
 namespace HWY_NAMESPACE {
@@ -47,19 +51,40 @@ std::size_t look(const PencilRays& a, std::size_t i, const SortedRays& b,
   return found;
 }
 
+HWY_INLINE void order(std::uint16_t& a, std::uint16_t& b) {
+  const std::uint16_t less = a < b ? a : b;
+  b = a < b ? b : a;
+  a = less;
+}
+
+constexpr std::size_t kLeastSorted = 4;
+
+// Most rows have few hits: these are sorted without branches. What is beyond them is overwritten.
+HWY_INLINE void sort_hits(std::uint16_t* hits, std::size_t n) {
+  if (n > kLeastSorted) return sort_many(hits, n);
+  for (std::size_t k = n; k < n + kLeastSorted; ++k) hits[k] = 0xFFFF;
+  order(hits[0], hits[1]);
+  order(hits[2], hits[3]);
+  order(hits[0], hits[2]);
+  order(hits[1], hits[3]);
+  order(hits[1], hits[2]);
+}
+
 // Rows [from, to) of a, or as many of them as there is room for; returns where it stopped.
 std::size_t look_in_rows(const PencilRays& a, const SortedRays& b, std::size_t from, std::size_t to,
                          const PairFilter::Room& room) {
   std::size_t looked_at = 0;
   std::size_t hits = 0;
   std::size_t i = from;
-  for (; i < to && hits + b.size <= room.hits.size() && looked_at <= room.looks; ++i) {
+  for (; i < to && hits + b.size + kLeastSorted <= room.hits.size() && looked_at <= room.looks;
+       ++i) {
     PairFilter::Row& row = room.rows[i];
     row = {};
     row.first_hit = static_cast<std::uint16_t>(hits);
     if (a.is_stray(i)) continue;
     const SortedRays::Window window = b.window(a.angle[i], a.half_width[i]);
     const std::size_t found = look(a, i, b, window, room.hits.data() + hits);
+    sort_hits(room.hits.data() + hits, found);
     hits += found;
     looked_at += window.last - window.first;
     row.hits = static_cast<std::uint16_t>(found);
@@ -76,6 +101,17 @@ HWY_AFTER_NAMESPACE();
 namespace dottrack::acquisition {
 
 HWY_EXPORT(look_in_rows);
+
+// For some ten numbers: insertion; they come in a few ascending runs.
+void sort_many(std::uint16_t* hits, std::size_t n) {
+  if (n > 32) return std::sort(hits, hits + n);
+  for (std::size_t k = 1; k < n; ++k) {
+    const std::uint16_t hit = hits[k];
+    std::size_t at = k;
+    for (; at > 0 && hits[at - 1] > hit; --at) hits[at] = hits[at - 1];
+    hits[at] = hit;
+  }
+}
 
 bool PairFilter::start(const RayArrays& a, const RayArrays& b, double max_miss_m) {
   rays_a_ = &a;
@@ -96,12 +132,7 @@ std::span<const PairFilter::Row> PairFilter::rows(std::size_t from) {
   const std::size_t to = strays ? std::min(from + 1, size) : size;
   const std::size_t end =
       HWY_DYNAMIC_DISPATCH(look_in_rows)(a_, sorted_b_, from, to, {rows_, hits_, kLooksInOneGo});
-  for (std::size_t i = from; i < end; ++i) {
-    Row& row = rows_[i];
-    if (strays) add_strays(i, row);
-    const auto first = hits_.begin() + row.first_hit;
-    if (row.hits > 1) std::sort(first, first + row.hits);
-  }
+  if (strays && from < end) add_strays(from, rows_[from]);
   return std::span<const Row>(rows_).subspan(from, end - from);
 }
 
@@ -117,6 +148,8 @@ void PairFilter::add_strays(std::size_t i, Row& row) {
   } else {
     for (const std::uint16_t j : b_.stray) look_at(j);
   }
+  const auto first = hits_.begin() + row.first_hit;
+  std::sort(first, first + row.hits);
 }
 
 bool PairFilter::may_meet(std::size_t i, std::size_t j) const {

@@ -47,7 +47,7 @@ class PairFilter {
 
   static constexpr std::size_t kRoomForHits = 4096;
   static constexpr std::size_t kLooksInOneGo = 1U << 15U;
-  static_assert(kRoomForHits >= core::kMaxRegions);
+  static_assert(kRoomForHits >= 2 * core::kMaxRegions);
 
   const RayArrays* rays_a_ = nullptr;
   const RayArrays* rays_b_ = nullptr;

@@ -28,8 +28,7 @@ HWY_INLINE Vector dot(const std::array<PointFilter::PerCamera, 3>& axis, std::si
 
 // One camera in every lane: CAHVOR's projection, then the bit of its map.
 HWY_INLINE std::uint32_t look_at(const PointFilter::Cameras& c, const std::uint32_t* maps,
-                                 std::size_t i, Vector px, Vector py, Vector pz, float margin_px,
-                                 PointLook& result) {
+                                 std::size_t i, Vector px, Vector py, Vector pz, float margin_px) {
   const Lanes lanes;
   const Integers integers;
   const auto zero = hn::Zero(lanes);
@@ -53,9 +52,6 @@ HWY_INLINE std::uint32_t look_at(const PointFilter::Cameras& c, const std::uint3
   const auto range = along(c.a, c.oa);
   const auto x = hn::Div(along(c.h, c.oh), range);
   const auto y = hn::Div(along(c.v, c.ov), range);
-  hn::StoreU(x, lanes, &result.x_px[i]);
-  hn::StoreU(y, lanes, &result.y_px[i]);
-
   const auto margin = hn::Set(lanes, margin_px);
   const auto column = hn::Mul(hn::Add(x, margin), load(c.cells_per_px));
   const auto row = hn::Mul(hn::Add(y, margin), load(c.cells_per_px));
@@ -82,14 +78,14 @@ HWY_INLINE std::uint32_t look_at(const PointFilter::Cameras& c, const std::uint3
 }
 
 std::uint32_t look_at_all(const PointFilter::Cameras& cameras, const std::uint32_t* maps,
-                          const Eigen::Vector3f& point, float margin_px, PointLook& result) {
+                          const Eigen::Vector3f& point, float margin_px) {
   const Lanes lanes;
   const auto x = hn::Set(lanes, point.x());
   const auto y = hn::Set(lanes, point.y());
   const auto z = hn::Set(lanes, point.z());
   std::uint32_t close = 0;
   for (std::size_t i = 0; i < kMaxCameras; i += hn::Lanes(lanes)) {
-    close |= look_at(cameras, maps, i, x, y, z, margin_px, result) << i;
+    close |= look_at(cameras, maps, i, x, y, z, margin_px) << i;
   }
   return close;
 }
@@ -134,13 +130,11 @@ bool as_cahvor(const geometry::CameraModel& model, geometry::Cahvor& cahvor) {
 }  // namespace
 
 void PointFilter::start(std::span<const CameraView> views) {
-  simple_ = CameraSet{};
   complex_ = CameraSet{};
   cameras_ = {};
   for (std::size_t c = 0; c < views.size(); ++c) {
     if (views[c].sightings.empty()) continue;
-    set_camera(c, *views[c].camera);
-    if (simple_.contains(c)) {
+    if (set_camera(c, *views[c].camera)) {
       draw(c, views[c].sightings);
     } else {
       complex_.insert(c);
@@ -148,10 +142,9 @@ void PointFilter::start(std::span<const CameraView> views) {
   }
 }
 
-void PointFilter::set_camera(std::size_t camera, const core::Camera& seen) {
+bool PointFilter::set_camera(std::size_t camera, const core::Camera& seen) {
   geometry::Cahvor m;
-  if (!as_cahvor(seen.model, m)) return;
-  simple_.insert(camera);
+  if (!as_cahvor(seen.model, m)) return false;
   put(cameras_.centre, camera, m.c);
   put(cameras_.a, camera, m.a);
   put(cameras_.h, camera, m.h);
@@ -171,6 +164,7 @@ void PointFilter::set_camera(std::size_t camera, const core::Camera& seen) {
   cameras_.rows[camera] = static_cast<float>(cells(seen.height_px));
   cameras_.words_per_row[camera] = cells(seen.width_px) / 32 + 1;
   cameras_.first_word[camera] = static_cast<std::int32_t>(camera) * kMapWords;
+  return true;
 }
 
 // Sets the bits of all cells within kClose_px of a sighting.
@@ -199,10 +193,10 @@ void PointFilter::draw(std::size_t camera, const estimation::Sightings& sighting
   }
 }
 
-void PointFilter::look(const Eigen::Vector3d& point_m, PointLook& result) const {
+CameraSet PointFilter::look(const Eigen::Vector3d& point_m) const {
   const std::uint32_t close = HWY_DYNAMIC_DISPATCH(look_at_all)(
-      cameras_, maps_.data(), point_m.cast<float>(), static_cast<float>(kMargin_px), result);
-  result.close = CameraSet(static_cast<std::uint16_t>(close | complex_.bits()));
+      cameras_, maps_.data(), point_m.cast<float>(), static_cast<float>(kMargin_px));
+  return CameraSet(static_cast<std::uint16_t>(close | complex_.bits()));
 }
 
 }  // namespace dottrack::acquisition

@@ -16,13 +16,6 @@ namespace dottrack::acquisition {
 // Sightings this close to a point's projection are close, pixels.
 inline constexpr double kClose_px = 3.0;
 
-// What the look at one point came to. Pixels of cameras without a simple model mean nothing.
-struct PointLook {
-  CameraSet close;  // every camera that has a sighting within kClose_px, and some others
-  std::array<float, kMaxCameras> x_px{};
-  std::array<float, kMaxCameras> y_px{};
-};
-
 // Projects with single precision, many cameras at a time, and looks into a map of the image with a
 // bit for every few pixels. Cameras of the CAHVORE model, which takes iterations to project, are
 // taken to be close to everything.
@@ -30,10 +23,8 @@ class PointFilter {
  public:
   void start(std::span<const CameraView> views);
 
-  void look(const Eigen::Vector3d& point_m, PointLook& result) const;
-
-  // Whether the camera's pixels mean something.
-  bool is_simple(std::size_t camera) const { return simple_.contains(camera); }
+  // Every camera that has a sighting within kClose_px of the point's projection, and some others.
+  CameraSet look(const Eigen::Vector3d& point_m) const;
 
   // The cameras, side by side: one number of each.
   using PerCamera = std::array<float, kMaxCameras>;
@@ -60,11 +51,10 @@ class PointFilter {
   static constexpr int kMostCells = 544;  // a row, or rows
   static constexpr int kMapWords = kMostCells * (kMostCells / 32 + 1) + 1;
 
-  void set_camera(std::size_t camera, const core::Camera& model);
+  bool set_camera(std::size_t camera, const core::Camera& seen);
   void draw(std::size_t camera, const estimation::Sightings& sightings);
 
-  CameraSet simple_;
-  CameraSet complex_;  // that see something
+  CameraSet complex_;  // cameras without a simple model that see something
   alignas(64) Cameras cameras_{};
   std::array<std::uint32_t, kMaxCameras * kMapWords + 1> maps_{};
 };

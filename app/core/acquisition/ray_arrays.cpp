@@ -10,13 +10,14 @@ using estimation::Sighting;
 
 constexpr double kLeastNear_m = 1e-6;  // so that it can be divided by
 
-double box_tangent(const Sighting& sighting) {
+double box_tangent(const Sighting& sighting, double max_residual_px) {
   const auto& jacobian = sighting.pixels_per_rad;
   const Eigen::Vector2d along = jacobian * sighting.line.ray.direction;  // nearly zero
-  const Eigen::Vector2d reach = (sighting.box_max_px - sighting.pixel)
-                                    .cwiseAbs()
-                                    .cwiseMax((sighting.box_min_px - sighting.pixel).cwiseAbs()) +
-                                along.cwiseAbs();
+  const Eigen::Vector2d corner = (sighting.box_max_px - sighting.pixel)
+                                     .cwiseAbs()
+                                     .cwiseMax((sighting.box_min_px - sighting.pixel).cwiseAbs());
+  const double in_box_px = (corner + along.cwiseAbs()).norm();
+  const double reach_px = std::min(in_box_px, max_residual_px + along.norm());
   // The smaller eigenvalue of J J^T for displacements across the ray: the slowest that the pixel
   // moves, squared.
   const double xx = jacobian.row(0).squaredNorm() - along.x() * along.x();
@@ -24,12 +25,13 @@ double box_tangent(const Sighting& sighting) {
   const double xy = jacobian.row(0).dot(jacobian.row(1)) - along.x() * along.y();
   const double half_gap = 0.5 * (xx - yy);
   const double least = 0.5 * (xx + yy) - std::sqrt(half_gap * half_gap + xy * xy);
-  return std::sqrt(reach.squaredNorm() / std::max(least, 1e-12));
+  return reach_px / std::sqrt(std::max(least, 1e-12));
 }
 
 }  // namespace
 
-void fill(RayArrays& rays, const core::Camera& camera, const estimation::Sightings& sightings) {
+void fill(RayArrays& rays, const core::Camera& camera, const estimation::Sightings& sightings,
+          double max_residual_px) {
   rays.size = sightings.size();
   rays.centre_m = geometry::centre(camera.model);
   rays.direction_sum.setZero();
@@ -45,7 +47,7 @@ void fill(RayArrays& rays, const core::Camera& camera, const estimation::Sightin
     rays.near_m[i] =
         static_cast<float>(std::max({sighting.window.near_m, camera.distance_min_m, kLeastNear_m}));
     rays.far_m[i] = static_cast<float>(std::min(sighting.window.far_m, camera.distance_max_m));
-    rays.box_tangent[i] = static_cast<float>(box_tangent(sighting));
+    rays.box_tangent[i] = static_cast<float>(box_tangent(sighting, max_residual_px));
   }
   rays.origin_offset_m = std::sqrt(offset2);
 }

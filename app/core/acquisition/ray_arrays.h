@@ -29,6 +29,8 @@ struct RayArrays {
   double origin_offset_m = 0.0;  // furthest that a ray's origin is from the centre
 };
 
-void fill(RayArrays& rays, const core::Camera& camera, const estimation::Sightings& sightings);
+// max_residual_px: further than this from its sighting's centre no point needs to project.
+void fill(RayArrays& rays, const core::Camera& camera, const estimation::Sightings& sightings,
+          double max_residual_px);
 
 }  // namespace dottrack::acquisition

@@ -30,8 +30,6 @@ void SightingIndex::build(const CameraView& view) {
   double sum_px = 0.0;
   for (std::size_t i = 0; i < size; ++i) {
     const Sighting& sighting = view.sightings[i];
-    x_[i] = static_cast<float>(sighting.pixel.x());
-    y_[i] = static_cast<float>(sighting.pixel.y());
     const double px = reach_px(sighting);
     reach[i] = std::nextafter(static_cast<float>(px), std::numeric_limits<float>::max());
     sum_px += px;

@@ -24,12 +24,6 @@ class SightingIndex {
   std::uint16_t closest(const Eigen::Vector2d& pixel, const Eigen::Vector3d& point_m,
                         double radius_px) const;
 
-  float distance2_px(std::size_t sighting, float x_px, float y_px) const {
-    const float dx = x_[sighting] - x_px;
-    const float dy = y_[sighting] - y_px;
-    return dx * dx + dy * dy;
-  }
-
  private:
   static constexpr std::size_t kCells = 4096;
 
@@ -45,8 +39,6 @@ class SightingIndex {
   std::array<std::uint16_t, kCells> heads_{};
   std::array<std::uint16_t, core::kMaxRegions> next_{};
   StaticVector<std::uint16_t, core::kMaxRegions> large_;  // that reach further
-  std::array<float, core::kMaxRegions> x_{};
-  std::array<float, core::kMaxRegions> y_{};
 };
 
 }  // namespace dottrack::acquisition

@@ -1,6 +1,6 @@
 #include "app/core/acquisition/view_finder.h"
 
-#include <cmath>
+#include <bit>
 
 namespace dottrack::acquisition {
 namespace {
@@ -56,31 +56,11 @@ PointViews ViewFinder::views_of(const Vector3d& point_m, CameraSet cameras, doub
 }
 
 PointViews ViewFinder::close_views(const Vector3d& point_m) const {
-  PointLook look;
-  filter_.look(point_m, look);
-  return views_of(point_m, look.close, kClose_px);
+  return views_of(point_m, look(point_m), kClose_px);
 }
 
 PointViews ViewFinder::all_views(const Vector3d& point_m) const {
   return views_of(point_m, seeing_, std::numeric_limits<double>::infinity());
-}
-
-float ViewFinder::residual2_px(const CandidatePair& pair, std::size_t side,
-                               const PointLook& look) const {
-  const std::size_t camera = pair.camera[side];
-  if (filter_.is_simple(camera)) {
-    return index_[camera].distance2_px(pair.sighting[side], look.x_px[camera], look.y_px[camera]);
-  }
-  const estimation::Sighting& sighting = views_[camera].sightings[pair.sighting[side]];
-  return static_cast<float>((sighting.pixel_of(pair.point_m) - sighting.pixel).squaredNorm());
-}
-
-// The lines' distance is shared equally between them in space; a camera further away sees less of
-// it. With a residual r in both, m = r (range_a + range_b); here r_a range_a = r_b range_b = m / 2.
-float ViewFinder::miss_px(const CandidatePair& pair, const PointLook& look) const {
-  const float a = std::sqrt(residual2_px(pair, 0, look));
-  const float b = std::sqrt(residual2_px(pair, 1, look));
-  return a + b > 0.0F ? 2.0F * a * b / (a + b) : 0.0F;
 }
 
 bool ViewFinder::is_vague(const CandidatePair& pair) const {

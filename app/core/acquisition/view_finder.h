@@ -31,9 +31,8 @@ class ViewFinder {
  public:
   void start(std::span<const CameraView> views);
 
-  void look(const Eigen::Vector3d& point_m, PointLook& result) const {
-    filter_.look(point_m, result);
-  }
+  // Every camera that has a sighting within kClose_px of the point's projection, and some others.
+  CameraSet look(const Eigen::Vector3d& point_m) const { return filter_.look(point_m); }
 
   // In each of these cameras the sighting closest to the point's projection, of those no further
   // from it than radius_px whose widened box contains it and whose size fits the point's range.
@@ -44,10 +43,6 @@ class ViewFinder {
   PointViews close_views(const Eigen::Vector3d& point_m) const;
   PointViews all_views(const Eigen::Vector3d& point_m) const;
 
-  // How far the pair's lines of sight miss each other, as the residual that both would have at a
-  // point between them, pixels.
-  float miss_px(const CandidatePair& pair, const PointLook& look) const;
-
   // The pair's lines of sight are so close to parallel that their crossing says little of where
   // other cameras see the dot.
   bool is_vague(const CandidatePair& pair) const;
@@ -55,8 +50,6 @@ class ViewFinder {
   CameraSet seeing() const { return seeing_; }
 
  private:
-  float residual2_px(const CandidatePair& pair, std::size_t side, const PointLook& look) const;
-
   std::span<const CameraView> views_;
   std::array<SightingIndex, kMaxCameras> index_;
   PointFilter filter_;
