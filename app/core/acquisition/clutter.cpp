@@ -1,6 +1,7 @@
 #include "app/core/acquisition/clutter.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -33,10 +34,10 @@ constexpr double kLargestSize = 2.0;
 constexpr double kAnySize = 4.0;
 
 bool share_a_sighting(const Finalist& a, const Finalist& b) {
-  const CameraSet both(static_cast<std::uint16_t>(a.cameras.bits() & b.cameras.bits()));
-  if (both.empty()) return false;
-  for (std::size_t camera = 0; camera < kMaxCameras; ++camera) {
-    if (both.contains(camera) && a.sighting[camera] == b.sighting[camera]) return true;
+  unsigned both = a.cameras.bits() & b.cameras.bits();
+  for (; both != 0; both &= both - 1) {
+    const auto camera = static_cast<std::size_t>(std::countr_zero(both));
+    if (a.sighting[camera] == b.sighting[camera]) return true;
   }
   return false;
 }

@@ -43,25 +43,6 @@ bool is_part_of(const Finalist& a, const Finalist& b) {
   return (a.cameras.bits() & ~b.cameras.bits()) == 0 && !conflict(a, b);
 }
 
-// Both have the same sighting in one of the cameras.
-bool shares_any(const Finalist& a, const Finalist& b, CameraSet cameras) {
-  for (std::size_t c = 0; c < kMaxCameras; ++c) {
-    if (cameras.contains(c) && a.cameras.contains(c) && b.sees(c, a.sighting[c])) return true;
-  }
-  return false;
-}
-
-// Every view of the finalist would take the point for its own.
-bool is_seen_by(std::span<const CameraView> views, const Eigen::Vector3d& point_m,
-                const Finalist& finalist) {
-  for (std::size_t c = 0; c < views.size(); ++c) {
-    if (!finalist.cameras.contains(c)) continue;
-    const estimation::Sighting& sighting = views[c].sightings[finalist.sighting[c]];
-    if (!sighting.box_contains(sighting.pixel_of(point_m), kWidenPart, kWiden_px)) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 struct FinalistSearch::Memory {
@@ -80,7 +61,6 @@ struct FinalistSearch::Memory {
   bool has_finalist(const CandidatePair& pair, bool count);
   void place(Finalist finalist, WorkBudget& budget, core::AcquisitionCounts& counts);
   bool merge_with_prior(Finalist& finalist, WorkBudget& budget);
-  bool unite(const Finalist& prior, Finalist& finalist, WorkBudget& budget) const;
   bool made_of_others(const Finalist& finalist) const;
 
   std::span<const CameraView> views;
@@ -236,6 +216,10 @@ int FinalistSearch::Memory::look_at(const CandidatePair& pair, WorkBudget& budge
                                     core::AcquisitionCounts& counts) {
   budget.spend(kLookUnits);
   if (has_finalist(pair, true)) return 0;
+  if (set.full()) {
+    ++counts.overflow;
+    return 0;
+  }
   PointViews alone;
   for (std::size_t side = 0; side < 2; ++side) alone.set(pair.camera[side], pair.sighting[side]);
   const CameraSet look = finder.look(pair.point_m);
@@ -261,12 +245,13 @@ int FinalistSearch::Memory::look_at(const CandidatePair& pair, WorkBudget& budge
 
 // Whether a finalist has both sightings and all its views agree.
 bool FinalistSearch::Memory::has_finalist(const CandidatePair& pair, bool count) {
-  return set.visit_owners(
-      pair.camera[0], pair.sighting[0], [&](std::uint16_t index, const Finalist& finalist) {
-        if (!finalist.sees(pair.camera[1], pair.sighting[1]) || !is_sure(finalist)) return false;
-        if (count) set.count_pair(index);
-        return true;
-      });
+  return set.visit_owners(pair.camera[0], pair.sighting[0], [&](std::uint16_t index) {
+    if (!set.cameras(index).contains(pair.camera[1])) return false;
+    const Finalist& finalist = set.finalists()[index];
+    if (!finalist.sees(pair.camera[1], pair.sighting[1]) || !is_sure(finalist)) return false;
+    if (count) set.count_pair(index);
+    return true;
+  });
 }
 
 void FinalistSearch::Memory::place(Finalist finalist, WorkBudget& budget,
@@ -277,58 +262,42 @@ void FinalistSearch::Memory::place(Finalist finalist, WorkBudget& budget,
   if (!set.add(finalist)) ++counts.overflow;
 }
 
-// Looks for a prior finalist that is the same dot. True when there is one: it was taken out of the
-// set and became part of `finalist`, or `finalist` is part of it and is empty now.
+// Looks for a prior finalist that is the same dot. True when one was taken out of the set, being
+// part of `finalist`. When it is the other way round `finalist` is empty afterwards. A finalist
+// whose views agree is never part of one whose views do not.
 bool FinalistSearch::Memory::merge_with_prior(Finalist& finalist, WorkBudget& budget) {
-  CameraSet before;
+  const auto bits = finalist.cameras.bits();
+  bool first = true;
   for (std::size_t c = 0; c < views.size(); ++c) {
     if (!finalist.cameras.contains(c)) continue;
-    std::uint16_t merged = FinalistSet::kNone;
-    set.visit_owners(c, finalist.sighting[c], [&](std::uint16_t index, const Finalist& prior) {
+    std::uint16_t inside = FinalistSet::kNone;
+    set.visit_owners(c, finalist.sighting[c], [&](std::uint16_t index) {
       budget.spend(1);
-      if ((prior.cameras.bits() & before.bits()) != 0 && shares_any(prior, finalist, before)) {
-        return false;  // was looked at in an earlier camera
+      const auto others = set.cameras(index).bits();
+      // What has all of the finalist's sightings has the first of them.
+      if (first && (bits & ~others) == 0) {
+        const Finalist& prior = set.finalists()[index];
+        if (is_part_of(finalist, prior) && (is_sure(prior) || !is_sure(finalist))) {
+          set.count_pair(index);
+          finalist.cameras = CameraSet{};
+          return true;
+        }
       }
-      const bool inside = is_part_of(finalist, prior) && (is_sure(prior) || !is_sure(finalist));
-      if (inside) {
-        set.count_pair(index);
-        finalist.cameras = CameraSet{};
-      }
-      const bool around =
-          !inside && is_part_of(prior, finalist) && (is_sure(finalist) || !is_sure(prior));
-      if (!inside && !around && !unite(prior, finalist, budget)) return false;
-      merged = index;
+      if ((others & ~bits) != 0) return false;
+      const Finalist& prior = set.finalists()[index];
+      if (!is_part_of(prior, finalist) || (is_sure(prior) && !is_sure(finalist))) return false;
+      inside = index;
       return true;
     });
     if (finalist.cameras.empty()) return false;
-    if (merged != FinalistSet::kNone) {
-      finalist.pairs += set.finalists()[merged].pairs;
-      set.remove(merged);
+    if (inside != FinalistSet::kNone) {
+      finalist.pairs += set.finalists()[inside].pairs;
+      set.remove(inside);
       return true;
     }
-    before.insert(c);
+    first = false;
   }
   return false;
-}
-
-// Makes one of two splinters of a dot, if all their views agree.
-bool FinalistSearch::Memory::unite(const Finalist& prior, Finalist& finalist,
-                                   WorkBudget& budget) const {
-  if (conflict(prior, finalist) || !is_seen_by(views, prior.position_m, finalist) ||
-      !is_seen_by(views, finalist.position_m, prior)) {
-    return false;
-  }
-  budget.spend(kSolveUnits);
-  PointViews all{finalist.cameras, finalist.sighting};
-  for (std::size_t c = 0; c < views.size(); ++c) {
-    if (prior.cameras.contains(c)) all.set(c, prior.sighting[c]);
-  }
-  Finalist united;
-  if (!refine_finalist(views, all, united) || united.cameras != all.cameras) return false;
-  if (!is_sure(united) && (is_sure(prior) || is_sure(finalist))) return false;
-  united.pairs = finalist.pairs;
-  finalist = united;
-  return true;
 }
 
 bool FinalistSearch::Memory::made_of_others(const Finalist& finalist) const {
@@ -336,10 +305,9 @@ bool FinalistSearch::Memory::made_of_others(const Finalist& finalist) const {
   const int many = std::max(kManyTimesViews * own, own + kManyMoreViews);
   for (std::size_t c = 0; c < views.size(); ++c) {
     if (!finalist.cameras.contains(c)) continue;
-    const bool belongs = set.visit_owners(c, finalist.sighting[c],
-                                          [&](std::uint16_t /*index*/, const Finalist& other) {
-                                            return other.cameras.size() >= many && is_sure(other);
-                                          });
+    const bool belongs = set.visit_owners(c, finalist.sighting[c], [&](std::uint16_t index) {
+      return set.cameras(index).size() >= many && is_sure(set.finalists()[index]);
+    });
     if (!belongs) return false;
   }
   return true;

@@ -9,6 +9,7 @@ void FinalistSet::clear() {
 
 void FinalistSet::link(std::uint16_t index) {
   const Finalist& finalist = finalists_[index];
+  cameras_[index] = finalist.cameras;
   for (std::size_t camera = 0; camera < kMaxCameras; ++camera) {
     if (!finalist.cameras.contains(camera)) continue;
     std::uint16_t& head = heads_[camera][finalist.sighting[camera]];
@@ -31,12 +32,6 @@ bool FinalistSet::add(const Finalist& finalist) {
   if (!try_push_back(finalists_, finalist)) return false;
   link(static_cast<std::uint16_t>(finalists_.size() - 1));
   return true;
-}
-
-void FinalistSet::replace(std::uint16_t index, const Finalist& finalist) {
-  unlink(index);
-  finalists_[index] = finalist;
-  link(index);
 }
 
 void FinalistSet::remove(std::uint16_t index) {

@@ -37,13 +37,17 @@ class FinalistSet {
 
   void clear();
   const Finalists& finalists() const { return finalists_; }
+  bool full() const { return finalists_.size() == finalists_.capacity(); }
 
-  // Calls visit(index, finalist) for every finalist with this sighting, the latest first, until it
-  // returns true; whether it did.
+  // Which cameras see the finalist: quicker to reach than the finalist.
+  CameraSet cameras(std::uint16_t index) const { return cameras_[index]; }
+
+  // Calls visit(index) for every finalist with this sighting, the latest first, until it returns
+  // true; whether it did.
   template <class Visit>
   bool visit_owners(std::size_t camera, std::size_t sighting, const Visit& visit) const {
     for (std::uint16_t i = heads_[camera][sighting]; i != kNone; i = next_[i][camera]) {
-      if (visit(i, finalists_[i])) return true;
+      if (visit(i)) return true;
     }
     return false;
   }
@@ -52,7 +56,6 @@ class FinalistSet {
 
   // False when there is no room.
   bool add(const Finalist& finalist);
-  void replace(std::uint16_t index, const Finalist& finalist);
   void remove(std::uint16_t index);  // the last one takes its place
 
  private:
@@ -60,6 +63,7 @@ class FinalistSet {
   void unlink(std::uint16_t index);
 
   Finalists finalists_;
+  std::array<CameraSet, core::kMaxFinalists> cameras_;
   std::array<std::array<std::uint16_t, core::kMaxRegions>, kMaxCameras> heads_{};
   std::array<std::array<std::uint16_t, kMaxCameras>, core::kMaxFinalists> next_{};
 };

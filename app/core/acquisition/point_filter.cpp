@@ -1,7 +1,8 @@
 #include "app/core/acquisition/point_filter.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
+#include <cstring>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "app/core/acquisition/point_filter.cpp"
@@ -167,6 +168,8 @@ bool PointFilter::set_camera(std::size_t camera, const core::Camera& seen) {
   return true;
 }
 
+static_assert(std::endian::native == std::endian::little);  // draw() writes words in pairs
+
 // Sets the bits of all cells within kClose_px of a sighting.
 void PointFilter::draw(std::size_t camera, const estimation::Sightings& sightings) {
   const double cells_per_px = static_cast<double>(cameras_.cells_per_px[camera]);
@@ -175,20 +178,25 @@ void PointFilter::draw(std::size_t camera, const estimation::Sightings& sighting
   const int pitch = cameras_.words_per_row[camera];
   std::uint32_t* map = maps_.data() + cameras_.first_word[camera];
   std::fill_n(map, rows * pitch + 1, 0U);
-  const auto cell = [&](double px, int limit) {
-    return std::clamp(static_cast<int>((px + kMargin_px) * cells_per_px), 0, limit - 1);
-  };
+  // Sightings lie in the image, and the map reaches further beyond it than they do.
+  const double right_px = columns / cells_per_px - 2.0 * kMargin_px;
+  const double bottom_px = rows / cells_per_px - 2.0 * kMargin_px;
+  constexpr double kReach_px = kClose_px + kRounding_px;
+  static_assert(kReach_px < kMargin_px);
   for (const estimation::Sighting& sighting : sightings) {
-    constexpr double kReach_px = kClose_px + kRounding_px;
-    const int from = cell(sighting.pixel.x() - kReach_px, columns);
-    const int to = cell(sighting.pixel.x() + kReach_px, columns);
-    const int last = cell(sighting.pixel.y() + kReach_px, rows);
-    const std::uint64_t bits = ((std::uint64_t{2} << static_cast<unsigned>(to - from)) - 1U)
-                               << static_cast<unsigned>(from % 32);
-    for (int row = cell(sighting.pixel.y() - kReach_px, rows); row <= last; ++row) {
-      std::uint32_t* word = map + row * pitch + from / 32;
-      word[0] |= static_cast<std::uint32_t>(bits);
-      word[1] |= static_cast<std::uint32_t>(bits >> 32U);
+    const double x = kMargin_px + std::clamp(sighting.pixel.x(), 0.0, right_px);
+    const double y = kMargin_px + std::clamp(sighting.pixel.y(), 0.0, bottom_px);
+    const auto from = static_cast<unsigned>((x - kReach_px) * cells_per_px);
+    const auto to = static_cast<unsigned>((x + kReach_px) * cells_per_px);
+    const auto first = static_cast<int>((y - kReach_px) * cells_per_px);
+    const auto last = static_cast<int>((y + kReach_px) * cells_per_px);
+    const std::uint64_t bits = ((std::uint64_t{2} << (to - from)) - 1U) << (from % 32);
+    std::uint32_t* word = map + first * pitch + from / 32;
+    for (int row = first; row <= last; ++row, word += pitch) {
+      std::uint64_t two;
+      std::memcpy(&two, word, sizeof(two));
+      two |= bits;
+      std::memcpy(word, &two, sizeof(two));
     }
   }
 }

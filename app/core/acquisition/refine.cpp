@@ -76,8 +76,7 @@ bool find_finalist(std::span<const CameraView> views, const ViewFinder& finder,
     finalist = next;
     found = true;
     if (finalist.cameras.size() < std::max(min_views, 3)) break;
-    const PointViews again = is_sure(finalist) ? finder.close_views(finalist.position_m)
-                                               : finder.all_views(finalist.position_m);
+    const PointViews again = finder.close_views(finalist.position_m);
     if (same_views(again, given) || same_views(again, views_of(finalist))) break;
     given = again;
   }

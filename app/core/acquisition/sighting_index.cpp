@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace dottrack::acquisition {
 namespace {
@@ -26,12 +25,12 @@ double reach_px(const Sighting& s) {
 void SightingIndex::build(const CameraView& view) {
   view_ = &view;
   const std::size_t size = view.sightings.size();
-  std::array<float, core::kMaxRegions> reach;
+  std::array<double, core::kMaxRegions> reach;
   double sum_px = 0.0;
   for (std::size_t i = 0; i < size; ++i) {
     const Sighting& sighting = view.sightings[i];
     const double px = reach_px(sighting);
-    reach[i] = std::nextafter(static_cast<float>(px), std::numeric_limits<float>::max());
+    reach[i] = px;
     sum_px += px;
   }
   choose_cells(*view.camera, sum_px / static_cast<double>(size));
@@ -39,7 +38,7 @@ void SightingIndex::build(const CameraView& view) {
   large_.clear();
   reach_px_ = 0.0;
   for (std::size_t i = 0; i < size; ++i) {
-    const auto px = static_cast<double>(reach[i]);
+    const double px = reach[i];
     if (px * cells_per_px_ > kCellsOfOne) {
       large_.push_back(static_cast<std::uint16_t>(i));
       continue;

@@ -59,10 +59,6 @@ PointViews ViewFinder::close_views(const Vector3d& point_m) const {
   return views_of(point_m, look(point_m), kClose_px);
 }
 
-PointViews ViewFinder::all_views(const Vector3d& point_m) const {
-  return views_of(point_m, seeing_, std::numeric_limits<double>::infinity());
-}
-
 bool ViewFinder::is_vague(const CandidatePair& pair) const {
   const Vector3d a = pair.point_m - centres_m_[pair.camera[0]];
   const Vector3d b = pair.point_m - centres_m_[pair.camera[1]];

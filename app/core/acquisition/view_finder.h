@@ -41,7 +41,6 @@ class ViewFinder {
   PointViews views_of(const Eigen::Vector3d& point_m, CameraSet cameras, double radius_px,
                       const PointViews& known = {}, int enough = 0) const;
   PointViews close_views(const Eigen::Vector3d& point_m) const;
-  PointViews all_views(const Eigen::Vector3d& point_m) const;
 
   // The pair's lines of sight are so close to parallel that their crossing says little of where
   // other cameras see the dot.

@@ -1,17 +1,48 @@
 #pragma once
-// The gates that a region passes to be a dot candidate (paper sections 3.1.2, 3.3).
+// The gates that a component passes to be a dot candidate (paper sections 3.1.2, 3.3).
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 
 #include "app/core/image/components.h"
 #include "app/core/image/identify.h"
-#include "app/core/image/region.h"
+#include "app/core/image/moments.h"
 
 namespace dottrack::image {
 
-// The area and the bounding box alone rule the component out: whatever its moments, its area or
-// its semi-major axis is outside the gate.
-bool excludes_size(const RegionGate& gate, const Component& component);
+// What the area and the bounding box alone tell of a gate: whatever the moments of a component that
+// they exclude, its area or its semi-major axis is outside the gate.
+class SizeBounds {
+ public:
+  explicit SizeBounds(const RegionGate& gate);
 
-bool passes_size(const RegionGate& gate, const Region& region);
-bool passes_shape(const RegionGate& gate, const Region& region);
+  bool exclude(const Component& component) const {
+    const std::int64_t w = component.x_max - component.x_min;
+    const std::int64_t h = component.y_max - component.y_min;
+    return component.area_px < min_area_px_ || component.area_px > max_area_px_ ||
+           std::max(w, h) > max_extent_px_ || w * w + h * h < min_diagonal_squared_;
+  }
+
+ private:
+  std::int64_t min_area_px_;
+  std::int64_t max_area_px_;
+  std::int64_t max_extent_px_;  // between the centres of the outermost pixels, as is the diagonal
+  std::int64_t min_diagonal_squared_;
+};
+
+// By the area and the i-th moments.
+inline bool passes_size(const RegionGate& gate, int area_px, const Moments& moments,
+                        std::size_t i) {
+  return area_px >= gate.min_area_px && moments.semi_major[i] >= gate.semi_major_min_px &&
+         moments.semi_major[i] <= gate.semi_major_max_px;
+}
+
+inline bool passes_shape(const RegionGate& gate, const Moments& moments, std::size_t i) {
+  return moments.semi_minor[i] >= gate.min_axis_ratio * moments.semi_major[i] &&
+         moments.fill[i] >= gate.min_fill &&
+         moments.box_misfit[i] <=
+             gate.max_box_misfit_px + gate.max_box_misfit_part * moments.semi_major[i];
+}
 
 }  // namespace dottrack::image

@@ -59,7 +59,9 @@ struct Identifier::Memory {
   void find_components(const Search& search);
   void take_rows(int y_end);
   IdentifyCounts pick_regions(const Search& search, const RegionGate& gate, Regions& regions);
-  std::size_t next_batch(const RegionGate& gate, std::size_t& next, IdentifyCounts& counts);
+  std::size_t next_batch(const SizeBounds& bounds, std::size_t& next, IdentifyCounts& counts);
+  void judge(const Search& search, const RegionGate& gate, std::size_t i, Regions& regions,
+             IdentifyCounts& counts);
 
   Bitmap bitmap;
   LocalBackground background;
@@ -100,19 +102,48 @@ void Identifier::Memory::find_components(const Search& search) {
 }
 
 // The next candidates that the cheap gates let through; returns how many.
-std::size_t Identifier::Memory::next_batch(const RegionGate& gate, std::size_t& next,
+std::size_t Identifier::Memory::next_batch(const SizeBounds& bounds, std::size_t& next,
                                            IdentifyCounts& counts) {
   std::size_t count = 0;
   for (; next < components.size() && count < kBatch; ++next) {
     if (!components.is_root(next)) continue;
     ++counts.components;
-    if (excludes_size(gate, components[next])) {
+    batch[count] = static_cast<std::uint32_t>(next);
+    if (bounds.exclude(components[next])) {
       ++counts.rejected_size;
-      continue;
+    } else {
+      ++count;
     }
-    batch[count++] = static_cast<std::uint32_t>(next);
   }
   return count;
+}
+
+// The i-th of the batch, if it passes the gates.
+void Identifier::Memory::judge(const Search& search, const RegionGate& gate, std::size_t i,
+                               Regions& regions, IdentifyCounts& counts) {
+  const Component& component = components[batch[i]];
+  if (!passes_size(gate, component.area_px, moments, i)) {
+    ++counts.rejected_size;
+    return;
+  }
+  const Eigen::Vector2d centroid_px(search.window.x_min + component.x_min + moments.x[i],
+                                    search.window.y_min + component.y_min + moments.y[i]);
+  const double contrast_dn =
+      core_contrast(search.image, centroid_px, batch_sums[i].faintest_dn, search.band.polarity);
+  if (!passes_shape(gate, moments, i) || contrast_dn < gate.min_core_contrast_dn) {
+    ++counts.rejected_shape;
+    return;
+  }
+  if (regions.size() == regions.capacity()) {
+    ++counts.overflow_regions;
+    return;
+  }
+  Region& region = regions.emplace_back();
+  set_region(search.window, component, moments, i, region);
+  region.centroid_px = centroid_px;
+  region.core_contrast_dn = contrast_dn;
+  region.saturated_px = static_cast<int>(batch_sums[i].saturated_px);
+  ++counts.accepted;
 }
 
 IdentifyCounts Identifier::Memory::pick_regions(const Search& search, const RegionGate& gate,
@@ -121,27 +152,16 @@ IdentifyCounts Identifier::Memory::pick_regions(const Search& search, const Regi
   const core::Polarity polarity = search.band.polarity;
   const PixelWeights weights = search.has_background() ? PixelWeights{background.excess(), 1, 0}
                                                        : band_weights(pixels, search.band);
+  const SizeBounds bounds(gate);
   IdentifyCounts counts;
   counts.runs = static_cast<std::uint32_t>(runs.size());
   counts.overflow_runs = runs.overflow();
   std::size_t next = 0;
-  while (const std::size_t count = next_batch(gate, next, counts)) {
+  while (const std::size_t count = next_batch(bounds, next, counts)) {
     sum_regions({pixels, weights.values, polarity, runs, components}, {batch.data(), count},
                 batch_sums.data());
     measure({batch_sums.data(), count}, weights, moments);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Region region = region_of(search.image, search.window, polarity, components[batch[i]],
-                                      batch_sums[i], moments, i);
-      if (!passes_size(gate, region)) {
-        ++counts.rejected_size;
-      } else if (!passes_shape(gate, region)) {
-        ++counts.rejected_shape;
-      } else if (try_push_back(regions, region)) {
-        ++counts.accepted;
-      } else {
-        ++counts.overflow_regions;
-      }
-    }
+    for (std::size_t i = 0; i < count; ++i) judge(search, gate, i, regions, counts);
   }
   return counts;
 }

@@ -29,7 +29,11 @@ struct RegionGate {
   double min_axis_ratio = 0.0;           // semi-minor over semi-major
   double min_fill = 0.0;                 // area over the area of the ellipse with the same moments
   double min_core_contrast_dn = -256.0;  // of Region::core_contrast_dn
-  int min_area_px = 2;                   // a single pixel is never a dot
+  // Region::box_misfit_px may be this much and this part of the semi-major axis (paper section 3.3:
+  // a check of the symmetry of the shape, early).
+  double max_box_misfit_px = 1e9;
+  double max_box_misfit_part = 0.0;
+  int min_area_px = 2;  // a single pixel is never a dot
 };
 
 struct Window {  // both ends included; clipped to the image

@@ -1,5 +1,7 @@
 #include "app/core/image/moments.h"
 
+#include <numbers>
+
 #include "app/core/image/arc_tangent.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -13,7 +15,7 @@
 #define DOTTRACK_IMAGE_MOMENT_COLUMNS
 namespace dottrack::image {
 struct MomentColumns {
-  Moments::Column n, x, y, xx, xy, yy, w, wx, wy;
+  Moments::Column n, x, y, xx, xy, yy, w, wx, wy, width, height;
   Moments::Column tilt_y, tilt_x;  // the vector at twice the major axis' angle
 };
 }  // namespace dottrack::image
@@ -46,6 +48,15 @@ HWY_INLINE Vector semi_axis(Vector variance) {
   return hn::Mul(hn::Set(kLanes, 2.0), hn::Sqrt(hn::Add(variance, pixel)));
 }
 
+// How far the sides of the ellipse's bounding box are from those of the region's along one axis,
+// the further of the two. Pixels reach half a pixel beyond their centres.
+HWY_INLINE Vector misfit(Vector mean, Vector variance, Vector extent) {
+  const Vector half = hn::Set(kLanes, 0.5);
+  const Vector half_extent = hn::Mul(half, extent);
+  const Vector off_centre = hn::Abs(hn::Sub(hn::Add(mean, half), half_extent));
+  return hn::Add(off_centre, hn::Abs(hn::Sub(half_extent, semi_axis(variance))));
+}
+
 HWY_INLINE void set_ellipses(MomentColumns& of, std::size_t i, Moments& to) {
   const Vector half = hn::Set(kLanes, 0.5);
   const Vector per_pixel = hn::Div(hn::Set(kLanes, 1.0), at(of.n, i));
@@ -58,8 +69,13 @@ HWY_INLINE void set_ellipses(MomentColumns& of, std::size_t i, Moments& to) {
   const Vector half_difference = hn::Mul(half, hn::Sub(xx, yy));
   const Vector radius =
       hn::Sqrt(hn::Add(hn::Mul(half_difference, half_difference), hn::Mul(xy, xy)));
-  put(semi_axis(hn::Add(middle, radius)), to.semi_major, i);
-  put(semi_axis(hn::Max(hn::Sub(middle, radius), hn::Zero(kLanes))), to.semi_minor, i);
+  const Vector major = semi_axis(hn::Add(middle, radius));
+  const Vector minor = semi_axis(hn::Max(hn::Sub(middle, radius), hn::Zero(kLanes)));
+  const Vector area = hn::Mul(hn::Mul(hn::Set(kLanes, std::numbers::pi), major), minor);
+  put(major, to.semi_major, i);
+  put(minor, to.semi_minor, i);
+  put(hn::Div(at(of.n, i), area), to.fill, i);
+  put(hn::Max(misfit(x, xx, at(of.width, i)), misfit(y, yy, at(of.height, i))), to.box_misfit, i);
   put(xy, of.tilt_y, i);
   put(half_difference, of.tilt_x, i);
 }
@@ -84,17 +100,20 @@ namespace {
 
 void put_sums(const RegionSums& sums, const PixelWeights& weights, std::size_t i,
               MomentColumns& to) {
-  const std::int64_t sign = weights.sign;
-  const std::int64_t offset = weights.offset;
-  to.n[i] = static_cast<double>(sums.n);
-  to.x[i] = static_cast<double>(sums.x);
-  to.y[i] = static_cast<double>(sums.y);
-  to.xx[i] = static_cast<double>(sums.xx);
-  to.xy[i] = static_cast<double>(sums.xy);
-  to.yy[i] = static_cast<double>(sums.yy);
-  to.w[i] = static_cast<double>(sign * sums.v + offset * sums.n);
-  to.wx[i] = static_cast<double>(sign * sums.vx + offset * sums.x);
-  to.wy[i] = static_cast<double>(sign * sums.vy + offset * sums.y);
+  const double sign = weights.sign;
+  const double offset = weights.offset;
+  const auto& of = sums.of;
+  to.n[i] = sums.n;
+  to.width[i] = sums.width;
+  to.height[i] = sums.height;
+  to.x[i] = of[RegionSums::kX];
+  to.y[i] = of[RegionSums::kY];
+  to.xx[i] = of[RegionSums::kXx];
+  to.xy[i] = of[RegionSums::kXy];
+  to.yy[i] = of[RegionSums::kYy];
+  to.w[i] = sign * of[RegionSums::kV] + offset * sums.n;
+  to.wx[i] = sign * of[RegionSums::kVx] + offset * of[RegionSums::kX];
+  to.wy[i] = sign * of[RegionSums::kVy] + offset * of[RegionSums::kY];
 }
 
 }  // namespace

@@ -17,13 +17,15 @@ struct PixelWeights {
   int offset = 0;
 };
 
-// Lengths in pixels; x and y count from the corner of the component's bounding box.
+// Of a few components: lengths in pixels; x and y count from the corner of the bounding box.
 struct Moments {
   static constexpr std::size_t kCapacity = 32;
   using Column = std::array<double, kCapacity>;
 
   Column x, y;  // centroid of the weighted pixels
   Column semi_major, semi_minor, angle_rad;
+  Column fill;        // area over that of the ellipse: 1 for an ellipse, less for all else
+  Column box_misfit;  // see Region::box_misfit_px
 };
 
 // A uniform ellipse has variance a^2 / 4 along its semi-axis a; a pixel is a unit square, which

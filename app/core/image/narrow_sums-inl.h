@@ -84,9 +84,16 @@ HWY_INLINE hn::Vec<Quads> totals(hn::Vec<Quads> a, hn::Vec<Quads> b, hn::Vec<Qua
   return hn::Add(hn::ConcatLowerLower(kQuads, cd, ab), hn::ConcatUpperUpper(kQuads, cd, ab));
 }
 
-// From the columns to the sums, with n, the moments in x and the faintest pixel's sense left open.
+HWY_INLINE void store(hn::Vec<Quads> v, double* to) {
+  const hn::FixedTag<double, 2> pair;
+  const hn::Half<Quads> half;
+  hn::StoreU(hn::PromoteTo(pair, hn::LowerHalf(half, v)), pair, to);
+  hn::StoreU(hn::PromoteTo(pair, hn::UpperHalf(half, v)), pair, to + 2);
+}
+
+// From the columns to the sums, with n, the box and the faintest pixel's sense left open.
 template <int kVectors>
-HWY_INLINE RegionSums reduce(const ColumnSums* columns) {
+HWY_INLINE void reduce(const ColumnSums* columns, RegionSums& sums) {
   const auto zero = hn::Zero(kQuads);
   const auto one = hn::Set(kColumns, 1);
   auto x = zero, xx = zero, y = zero, xy = zero, yy = zero, v = zero, vx = zero, vy = zero,
@@ -106,29 +113,19 @@ HWY_INLINE RegionSums reduce(const ColumnSums* columns) {
     saturated = products(c.saturated_, one, saturated);
     faintest = hn::Max(faintest, c.faintest_);
   }
-  alignas(16) std::array<std::int32_t, 8> all;
-  hn::Store(totals(x, y, xx, xy), kQuads, all.data());
-  hn::Store(totals(yy, v, vx, vy), kQuads, all.data() + 4);
-  RegionSums sums;
-  sums.x = all[0];
-  sums.y = all[1];
-  sums.xx = all[2];
-  sums.xy = all[3];
-  sums.yy = all[4];
-  sums.v = all[5];
-  sums.vx = all[6];
-  sums.vy = all[7];
-  sums.saturated = hn::GetLane(hn::SumOfLanes(kQuads, saturated));
+  store(totals(x, y, xx, xy), sums.of.data());
+  store(totals(yy, v, vx, vy), sums.of.data() + RegionSums::kYy);
+  sums.saturated_px = hn::GetLane(hn::SumOfLanes(kQuads, saturated));
   sums.faintest_dn = hn::GetLane(hn::MaxOfLanes(kColumns, faintest));
-  return sums;
 }
 
 // From x counted from one column to x counted from a column d further right.
-HWY_INLINE void move_origin(int d, RegionSums& sums) {
-  sums.xx += d * (d * sums.n - 2 * sums.x);
-  sums.xy -= d * sums.y;
-  sums.x -= d * sums.n;
-  sums.vx -= d * sums.v;
+HWY_INLINE void move_origin(double d, RegionSums& sums) {
+  auto& of = sums.of;
+  of[RegionSums::kXx] += d * (d * sums.n - 2.0 * of[RegionSums::kX]);
+  of[RegionSums::kXy] -= d * of[RegionSums::kY];
+  of[RegionSums::kX] -= d * sums.n;
+  of[RegionSums::kVx] -= d * of[RegionSums::kV];
 }
 
 // The first column of so many vectors that they hold the component; -1 if they cannot.
@@ -142,7 +139,8 @@ HWY_INLINE int first_column(const Component& component, int width_px, int vector
 
 // kWeighted: the values are not the pixels themselves.
 template <int kVectors, bool kWeighted>
-HWY_INLINE RegionSums sum(const SumsOf& of, const Component& component, int first_column) {
+HWY_INLINE void sum(const SumsOf& of, const Component& component, int first_column,
+                    RegionSums& sums) {
   const hn::Rebind<std::uint8_t, Columns> bytes;
   const auto flip =
       hn::Set(kColumns, std::int16_t{of.polarity == core::Polarity::bright ? 255 : 0});
@@ -168,13 +166,11 @@ HWY_INLINE RegionSums sum(const SumsOf& of, const Component& component, int firs
       columns[k].add(y, lanes_between(c, first, last), pixel, value, flip);
     }
   }
-  RegionSums sums = reduce<kVectors>(columns);
-  sums.n = component.area_px;
+  reduce<kVectors>(columns, sums);
   if (component.x_min != first_column) [[unlikely]] {
     move_origin(component.x_min - first_column, sums);
   }
   if (of.polarity == core::Polarity::bright) sums.faintest_dn = 255 - sums.faintest_dn;
-  return sums;
 }
 
 // If so many vectors hold the component.
@@ -182,8 +178,11 @@ template <int kVectors>
 HWY_INLINE bool try_sum(const SumsOf& of, const Component& component, RegionSums& sums) {
   const int x = first_column(component, of.pixels.width_px, kVectors);
   if (x < 0) return false;
-  const bool weighted = of.values.data != of.pixels.data;
-  sums = weighted ? sum<kVectors, true>(of, component, x) : sum<kVectors, false>(of, component, x);
+  if (of.values.data != of.pixels.data) {
+    sum<kVectors, true>(of, component, x, sums);
+  } else {
+    sum<kVectors, false>(of, component, x, sums);
+  }
   return true;
 }
 

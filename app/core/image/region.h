@@ -18,6 +18,10 @@ struct Region {
   double semi_minor_px = 0.0;
   double angle_rad = 0.0;
   int area_px = 0;
+  // How far the bounding box of that ellipse, about the area's centroid, is from the region's own,
+  // at the worst of the four sides. A filled ellipse has none, but for its ragged rim; a half moon,
+  // an L, a ring, a bar with a bulge or two dots grown together have much.
+  double box_misfit_px = 0.0;
   // Mean of the 3 x 3 pixels around the centroid over the region's faintest pixel, towards the
   // dots' polarity: negative where the region is a scatter of noise without a core.
   double core_contrast_dn = 0.0;

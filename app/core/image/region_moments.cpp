@@ -17,19 +17,27 @@ void set_box(Region& region, const Component& component, const Window& window) {
 }
 
 // Mean of the 3 x 3 pixels around a pixel; at the image's edge, of those that there are.
-double mean_around(const ImageView& image, int x, int y) {
-  const int x_min = std::max(x - 1, 0);
-  const int x_max = std::min(x + 1, image.width_px - 1);
-  const int y_min = std::max(y - 1, 0);
-  const int y_max = std::min(y + 1, image.height_px - 1);
-  const int columns = x_max - x_min + 1;
-  const int rows = y_max - y_min + 1;
+double mean_at_edge(const ImageView& image, int x, int y) {
   int sum = 0;
-  for (int j = y_min; j <= y_max; ++j) {
-    const std::uint8_t* pixels = image.row(j) + x_min;
-    sum += pixels[0] + (columns > 1 ? pixels[1] : 0) + (columns > 2 ? pixels[2] : 0);
+  int count = 0;
+  for (int j = std::max(y - 1, 0); j <= std::min(y + 1, image.height_px - 1); ++j) {
+    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, image.width_px - 1); ++i) {
+      sum += image.row(j)[i];
+      ++count;
+    }
   }
-  return static_cast<double>(sum) / (rows * columns);
+  return static_cast<double>(sum) / count;
+}
+
+double mean_around(const ImageView& image, int x, int y) {
+  if (x < 1 || y < 1 || x > image.width_px - 2 || y > image.height_px - 2) [[unlikely]] {
+    return mean_at_edge(image, x, y);
+  }
+  const std::uint8_t* p = image.row(y) + x;
+  const std::uint8_t* up = p - image.stride_bytes;
+  const std::uint8_t* down = p + image.stride_bytes;
+  const int sum = up[-1] + up[0] + up[1] + p[-1] + p[0] + p[1] + down[-1] + down[0] + down[1];
+  return sum / 9.0;
 }
 
 // Coordinates in an image are never negative, and lround would be a call.
@@ -37,28 +45,22 @@ int nearest_pixel(double coordinate) {
   return static_cast<int>(coordinate + 0.5);  // NOLINT(bugprone-incorrect-roundings)
 }
 
-// See Region::core_contrast_dn.
-double core_contrast(const ImageView& image, const Eigen::Vector2d& centroid, int faintest_dn,
+}  // namespace
+
+double core_contrast(const ImageView& image, const Eigen::Vector2d& centroid_px, int faintest_dn,
                      core::Polarity polarity) {
   const double middle =
-      mean_around(image, nearest_pixel(centroid.x()), nearest_pixel(centroid.y()));
+      mean_around(image, nearest_pixel(centroid_px.x()), nearest_pixel(centroid_px.y()));
   return polarity == core::Polarity::bright ? middle - faintest_dn : faintest_dn - middle;
 }
 
-}  // namespace
-
-Region region_of(const ImageView& image, const Window& window, core::Polarity polarity,
-                 const Component& component, const RegionSums& sums, const Moments& moments,
-                 std::size_t i) {
-  Region region;
+void set_region(const Window& window, const Component& component, const Moments& moments,
+                std::size_t i, Region& region) {
   set_box(region, component, window);
-  region.saturated_px = static_cast<int>(sums.saturated);
-  region.centroid_px = {region.x_min + moments.x[i], region.y_min + moments.y[i]};
   region.semi_major_px = moments.semi_major[i];
   region.semi_minor_px = moments.semi_minor[i];
   region.angle_rad = moments.angle_rad[i];
-  region.core_contrast_dn = core_contrast(image, region.centroid_px, sums.faintest_dn, polarity);
-  return region;
+  region.box_misfit_px = moments.box_misfit[i];
 }
 
 }  // namespace dottrack::image

@@ -13,9 +13,12 @@
 
 namespace dottrack::image {
 
-// The component as a region of the image; it was found in the window, and its moments are the i-th.
-Region region_of(const ImageView& image, const Window& window, core::Polarity polarity,
-                 const Component& component, const RegionSums& sums, const Moments& moments,
-                 std::size_t i);
+// See Region::core_contrast_dn; `faintest_dn` is of the region's pixels.
+double core_contrast(const ImageView& image, const Eigen::Vector2d& centroid_px, int faintest_dn,
+                     core::Polarity polarity);
+
+// Box, area and ellipse of a component that was found in the window; its moments are the i-th.
+void set_region(const Window& window, const Component& component, const Moments& moments,
+                std::size_t i, Region& region);
 
 }  // namespace dottrack::image

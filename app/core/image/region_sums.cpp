@@ -43,7 +43,7 @@ class ProductSum {
   HWY_INLINE void add(Vector a, Vector b) {
     even_ = hn::ReorderWidenMulAccumulate(Wide(), a, b, even_, odd_);
   }
-  HWY_INLINE void move_to(std::int64_t& sum) {
+  HWY_INLINE void move_to(double& sum) {
     sum += hn::GetLane(hn::SumOfLanes(Wide(), hn::Add(even_, odd_)));
     even_ = hn::Zero(Wide());
     odd_ = hn::Zero(Wide());
@@ -54,10 +54,13 @@ class ProductSum {
   hn::Vec<Wide> odd_;
 };
 
-// The sums of a region in lanes; moved to 64 bits before they could overflow.
+// The sums of a region in lanes; moved on before they could overflow.
 class LaneSums {
  public:
-  HWY_INLINE LaneSums() : faintest_(hn::Zero(kLanes)) {}
+  HWY_INLINE explicit LaneSums(RegionSums& sums) : sums_(sums), faintest_(hn::Zero(kLanes)) {
+    sums_.of = {};
+    sums_.saturated_px = 0.0;
+  }
 
   // `inside` has ones in the lanes that are pixels of the region, zeros elsewhere.
   HWY_INLINE void add(Vector x, Vector y, Vector inside, Vector pixel, Vector value, Vector flip) {
@@ -82,23 +85,22 @@ class LaneSums {
   }
 
   void flush() {
-    x_.move_to(sums_.x);
-    y_.move_to(sums_.y);
-    xx_.move_to(sums_.xx);
-    xy_.move_to(sums_.xy);
-    yy_.move_to(sums_.yy);
-    v_.move_to(sums_.v);
-    vx_.move_to(sums_.vx);
-    vy_.move_to(sums_.vy);
-    saturated_.move_to(sums_.saturated);
+    x_.move_to(sums_.of[RegionSums::kX]);
+    y_.move_to(sums_.of[RegionSums::kY]);
+    xx_.move_to(sums_.of[RegionSums::kXx]);
+    xy_.move_to(sums_.of[RegionSums::kXy]);
+    yy_.move_to(sums_.of[RegionSums::kYy]);
+    v_.move_to(sums_.of[RegionSums::kV]);
+    vx_.move_to(sums_.of[RegionSums::kVx]);
+    vy_.move_to(sums_.of[RegionSums::kVy]);
+    saturated_.move_to(sums_.saturated_px);
     steps_ = 0;
   }
 
-  // All that was added, with n and the sense of the faintest pixel left open.
-  HWY_INLINE RegionSums finish() {
+  // The sense of the faintest pixel is left open.
+  HWY_INLINE void finish() {
     flush();
     sums_.faintest_dn = hn::GetLane(hn::MaxOfLanes(kLanes, faintest_));
-    return sums_;
   }
 
  private:
@@ -108,7 +110,7 @@ class LaneSums {
                     (core::kMaxImageWidth - 1) <
                 (std::int64_t{1} << 31U));
 
-  RegionSums sums_;
+  RegionSums& sums_;
   ProductSum x_, y_, xx_, xy_, yy_, v_, vx_, vy_, saturated_;
   Vector faintest_;  // as far from the polarity's end as it goes
   int steps_ = 0;
@@ -118,11 +120,11 @@ HWY_INLINE Vector all(int value) {
   return hn::Set(kLanes, static_cast<std::int16_t>(value));
 }
 
-RegionSums sum_wide(const SumsOf& of, const Component& component) {
+void sum_wide(const SumsOf& of, const Component& component, RegionSums& sums) {
   const auto lane = hn::Iota(kLanes, 0);
   const bool bright = of.polarity == core::Polarity::bright;
   const auto flip = all(bright ? 255 : 0);
-  LaneSums lanes;
+  LaneSums lanes(sums);
   for (std::uint32_t i = component.head; i != Components::kEnd; i = of.components.next_run(i)) {
     const int x = column(of.runs[i].first);
     const int y = row(of.runs[i].first);
@@ -136,21 +138,26 @@ RegionSums sum_wide(const SumsOf& of, const Component& component) {
                 load(of.values.row(y) + x + k, count, room - k), flip);
     }
   }
-  RegionSums sums = lanes.finish();
-  sums.n = component.area_px;
+  lanes.finish();
   if (bright) sums.faintest_dn = 255 - sums.faintest_dn;
-  return sums;
 }
 
 void sum_component(const SumsOf& of, const Component& component, RegionSums& sums) {
 #if HWY_TARGET != HWY_SCALAR  // one lane holds no columns
   if (narrow::try_sum<1>(of, component, sums) || narrow::try_sum<2>(of, component, sums)) return;
 #endif
-  sums = sum_wide(of, component);
+  sum_wide(of, component, sums);
 }
 
 void sum_all(const SumsOf& of, std::span<const std::uint32_t> which, RegionSums* sums) {
-  for (const std::uint32_t i : which) sum_component(of, of.components[i], *sums++);
+  for (const std::uint32_t i : which) {
+    const Component& component = of.components[i];
+    sums->n = component.area_px;
+    sums->width = component.x_max - component.x_min + 1;
+    sums->height = component.y_max - component.y_min + 1;
+    sum_component(of, component, *sums);
+    ++sums;
+  }
 }
 
 }  // namespace HWY_NAMESPACE

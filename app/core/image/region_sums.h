@@ -1,6 +1,8 @@
 #pragma once
 // Sums over the pixels of a component: all that its moments are made of.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -11,12 +13,16 @@
 
 namespace dottrack::image {
 
-// x and y count from the corner of the component's bounding box. Exact.
+// x and y count from the corner of the component's bounding box. All integers, and exact.
 struct RegionSums {
-  std::int64_t n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;  // of every pixel
-  std::int64_t v = 0, vx = 0, vy = 0;                        // times its value
-  std::int64_t saturated = 0;                                // pixels at 255
-  int faintest_dn = 0;                                       // bright: darkest; dark: brightest
+  enum Sum : std::size_t { kX, kY, kXx, kXy, kYy, kV, kVx, kVy };  // v: a pixel's value
+
+  std::array<double, 8> of = {};
+  double saturated_px = 0.0;  // pixels at 255
+  int faintest_dn = 0;        // pixel; bright: darkest; dark: brightest
+  int n = 0;
+  int width = 0;  // of the bounding box
+  int height = 0;
 };
 
 // What the sums are of: `pixels` is the image inside the searched window, `values`, as large, what

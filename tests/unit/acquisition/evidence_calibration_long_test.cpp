@@ -16,7 +16,7 @@ using test::is_wrong;
 using test::kLimit_m;
 
 TEST(EvidenceCalibration, OverManyScenes) {
-  const Calibration calibration = calibrate({1, 30000, {3, 3, 3, 3, 3, 4, 4, 5}});
+  const Calibration calibration = calibrate({1001, 30000, {3, 3, 3, 3, 3, 4, 4, 5}});
   EXPECT_GE(calibration.row("all").candidates, 10000.0);
   EXPECT_GE(calibration.row("all").wrong, 1000.0);
   EXPECT_GE(calibration.check(), 7);
@@ -27,7 +27,7 @@ TEST(EvidenceCalibration, OverManyScenes) {
 
 // Dots of a large target are hidden in most scenes: it is selected in part.
 TEST(EvidenceCalibration, OfTargetsInPart) {
-  const Calibration calibration = calibrate({2, 2400, {8, 6, 6, 6, 6, 6, 6, 6}});
+  const Calibration calibration = calibrate({1002, 2400, {8, 6, 6, 6, 6, 6, 6, 6}});
   EXPECT_GE(calibration.row("all").wrong, 60.0);
   EXPECT_GE(calibration.check(), 4);
   EXPECT_EQ(calibration.row("probability below 1e-6").wrong, 0.0);
@@ -37,7 +37,7 @@ TEST(EvidenceCalibration, OfTargetsInPart) {
 // other's rival.
 TEST(EvidenceCalibration, BesideAnExactCopy) {
   Calibration calibration;
-  test::SceneMaker make(5);
+  test::SceneMaker make(1005);
   test::Finder finder;
   int sure = 0;
   for (int i = 0; i < 600; ++i) {

@@ -37,7 +37,7 @@ TEST(Refine, AViewThatDisagreesIsDropped) {
   EXPECT_LT(finalist.worst_residual_px, 1e-6);
 }
 
-// Against a plain list: any order of adding, replacing and removing leaves the owners right.
+// Against a plain list: any order of adding and removing leaves the owners right.
 TEST(FinalistSet, KnowsTheOwnersOfEverySighting) {
   constexpr int kSightings = 20;
   constexpr std::size_t kCameras = 3;
@@ -61,17 +61,14 @@ TEST(FinalistSet, KnowsTheOwnersOfEverySighting) {
       EXPECT_TRUE(set->add(some()));
     } else {
       const auto index = static_cast<std::uint16_t>(static_cast<std::size_t>(step) % size);
-      if (any(random) % 3 == 0) {
-        set->replace(index, some());
-      } else {
-        set->remove(index);
-      }
+      set->remove(index);
     }
     for (std::size_t c = 0; c < kCameras; ++c) {
       for (std::size_t s = 0; s < kSightings; ++s) {
         std::size_t visited = 0;
-        set->visit_owners(c, s, [&](std::uint16_t index, const Finalist& finalist) {
-          EXPECT_EQ(&finalist, &set->finalists()[index]);
+        set->visit_owners(c, s, [&](std::uint16_t index) {
+          const Finalist& finalist = set->finalists()[index];
+          EXPECT_EQ(set->cameras(index), finalist.cameras);
           EXPECT_TRUE(finalist.sees(c, s));
           ++visited;
           return false;

@@ -145,7 +145,7 @@ Totals watch_many(std::uint64_t seed, int films, int ticks, double step_m, bool 
 }
 
 TEST(GatheredCalibration, ClutterOfThreeDotsIsHeldBack) {
-  Totals totals = watch_many(1, 500, 60, 0.0, false);
+  Totals totals = watch_many(1001, 500, 60, 0.0, false);
   print_head();
   totals.print("clutter alone");
   EXPECT_GE(totals.films, 100);
@@ -155,7 +155,7 @@ TEST(GatheredCalibration, ClutterOfThreeDotsIsHeldBack) {
 TEST(GatheredCalibration, AMovingTargetIsReleasedWithinAFewTicks) {
   print_head();
   for (const double step_m : {0.1, 0.05, 0.02}) {
-    Totals totals = watch_many(2, 200, 60, step_m, true);
+    Totals totals = watch_many(1002, 200, 60, step_m, true);
     totals.print(step_m > 0.09 ? "moving 10 cm a tick" : step_m > 0.04 ? "5 cm" : "2 cm");
     EXPECT_GE(totals.films, 150);
     EXPECT_EQ(totals.wrongly, 0);
@@ -165,7 +165,7 @@ TEST(GatheredCalibration, AMovingTargetIsReleasedWithinAFewTicks) {
 }
 
 TEST(GatheredCalibration, AStandingTargetIsReleasedWhereClutterIsThin) {
-  Totals totals = watch_many(3, 200, 100, 0.0, true);
+  Totals totals = watch_many(1003, 200, 100, 0.0, true);
   print_head();
   totals.print("standing");
   EXPECT_GE(totals.films, 150);
@@ -176,7 +176,7 @@ TEST(GatheredCalibration, AStandingTargetIsReleasedWhereClutterIsThin) {
 TEST(GatheredCalibration, ClaimsWhatIsObserved) {
   Totals totals;
   for (const bool with_target : {false, true}) {
-    const Totals some = watch_many(4, 500, 20, 0.0, with_target);
+    const Totals some = watch_many(1004, 500, 20, 0.0, with_target);
     totals.films += some.films;
     totals.claimed += some.claimed;
     totals.wrong += some.wrong;

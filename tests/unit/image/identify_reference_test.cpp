@@ -37,6 +37,8 @@ class IdentifyReference : public testing::Test {
     gate.min_fill = real(random_, 0.0, 0.95);
     gate.min_core_contrast_dn = real(random_, -100.0, 20.0);
     gate.min_area_px = integer(random_, 0, 20);
+    gate.max_box_misfit_px = real(random_, 0.1, 4.0);
+    gate.max_box_misfit_part = real(random_, 0.0, 0.3);
     return gate;
   }
 

@@ -30,9 +30,10 @@ class IdentifyTargets : public testing::Test {
 bool same(const Region& a, const Region& b) {
   return a.centroid_px == b.centroid_px && a.semi_major_px == b.semi_major_px &&
          a.semi_minor_px == b.semi_minor_px && a.angle_rad == b.angle_rad &&
-         a.area_px == b.area_px && a.core_contrast_dn == b.core_contrast_dn &&
-         a.saturated_px == b.saturated_px && a.x_min == b.x_min && a.x_max == b.x_max &&
-         a.y_min == b.y_min && a.y_max == b.y_max && a.touches_border == b.touches_border;
+         a.area_px == b.area_px && a.box_misfit_px == b.box_misfit_px &&
+         a.core_contrast_dn == b.core_contrast_dn && a.saturated_px == b.saturated_px &&
+         a.x_min == b.x_min && a.x_max == b.x_max && a.y_min == b.y_min && a.y_max == b.y_max &&
+         a.touches_border == b.touches_border;
 }
 
 TEST_F(IdentifyTargets, GiveTheSameRegions) {

@@ -149,6 +149,12 @@ class Plain {
     region.semi_major_px = 2.0 * std::sqrt(solver.eigenvalues()[1]);
     const Eigen::Vector2d axis = solver.eigenvectors().col(1);
     region.angle_rad = std::atan2(axis.y(), axis.x());
+    const double half_x = 2.0 * std::sqrt(covariance(0, 0));
+    const double half_y = 2.0 * std::sqrt(covariance(1, 1));
+    region.box_misfit_px = std::max({std::abs(mean.x() - half_x - (region.x_min - 0.5)),
+                                     std::abs(mean.x() + half_x - (region.x_max + 0.5)),
+                                     std::abs(mean.y() - half_y - (region.y_min - 0.5)),
+                                     std::abs(mean.y() + half_y - (region.y_max + 0.5))});
   }
 
   double core_contrast(const Eigen::Vector2d& centroid, const std::vector<Point>& points) const {
@@ -180,7 +186,9 @@ class Plain {
         region.semi_major_px > gate.semi_major_max_px) {
       ++result.counts.rejected_size;
     } else if (region.semi_minor_px < gate.min_axis_ratio * region.semi_major_px ||
-               fill < gate.min_fill || region.core_contrast_dn < gate.min_core_contrast_dn) {
+               fill < gate.min_fill || region.core_contrast_dn < gate.min_core_contrast_dn ||
+               region.box_misfit_px >
+                   gate.max_box_misfit_px + gate.max_box_misfit_part * region.semi_major_px) {
       ++result.counts.rejected_shape;
     } else if (result.regions.size() < core::kMaxRegions) {
       ++result.counts.accepted;
@@ -210,6 +218,7 @@ void expect_equal(const Region& expected, const Region& region) {
   const double turn = std::sin(region.angle_rad - expected.angle_rad);
   EXPECT_NEAR(roundness * turn, 0.0, 2e-8 * roundness + kTolerance);
   EXPECT_NEAR(region.core_contrast_dn, expected.core_contrast_dn, kTolerance);
+  EXPECT_NEAR(region.box_misfit_px, expected.box_misfit_px, kTolerance);
   EXPECT_EQ(region.area_px, expected.area_px);
   EXPECT_EQ(region.saturated_px, expected.saturated_px);
   EXPECT_EQ(region.x_min, expected.x_min);
