@@ -4,6 +4,7 @@
 
 #include "app/core/acquisition/gathered_evidence.h"
 #include "app/core/estimation/motion.h"
+#include "app/core/estimation/same_place.h"
 #include "app/core/geometry/optics.h"
 #include "app/core/image/identify.h"
 #include "app/core/searcher.h"
@@ -54,16 +55,6 @@ acquisition::Witnesses witnesses_of(const tracking::FollowResult& followed) {
                          .views = state.cameras.size()});
   }
   return witnesses;
-}
-
-// Both poses put every dot where the other one does, to within a dot's size.
-bool same_place(const Target& target, const Pose& a, const Pose& b) {
-  const double reach_m = largest_dot_diameter_m(target);
-  return std::all_of(target.dots.begin(), target.dots.end(), [&](const TargetDot& dot) {
-    const Eigen::Vector3d in_a = a.orientation * dot.position_m + a.position_m;
-    const Eigen::Vector3d in_b = b.orientation * dot.position_m + b.position_m;
-    return (in_a - in_b).squaredNorm() < reach_m * reach_m;
-  });
 }
 
 // The sign of a quaternion means nothing; from tick to tick it stays the same.
@@ -191,6 +182,7 @@ void Tracker::Memory::follow() {
   const tracking::FollowResult& followed = follower.follow(frames, pose, considered_of);
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     result.cameras[i].regions = static_cast<std::uint32_t>(considered[i].size());
+    result.cameras[i].rejected_ellipse = followed.rejected_ellipse[i];
   }
   const bool watches = rig.limits.watch_every_ticks > 0;
   const Reason reason = followed.reason;
@@ -227,7 +219,7 @@ bool Tracker::Memory::is_better_elsewhere() {
   const acquisition::AcquisitionResult& found = searcher.acquisition().result();
   if (found.reason != Reason::none ||
       found.counts.false_lock_probability > rig.limits.max_false_lock_probability ||
-      same_place(rig.target, found.candidate.pose, watched_pose)) {
+      estimation::same_place(rig.target, found.candidate.pose, watched_pose)) {
     return false;
   }
   const double here =

@@ -7,6 +7,7 @@
 #include "app/core/acquisition/finalist_search.h"
 #include "app/core/acquisition/sightings.h"
 #include "app/core/estimation/locate.h"
+#include "app/core/estimation/same_place.h"
 
 namespace dottrack::acquisition {
 namespace {
@@ -14,6 +15,9 @@ namespace {
 // Lines of sight cross by chance in two views often, in more hardly ever: the target is looked for
 // among the finalists of many views first, then of fewer.
 constexpr std::array<int, 3> kViewLayers = {4, 3, 2};
+
+// Work to weigh one dot of a candidate, by finalist: each may be clutter near it.
+constexpr std::uint64_t kUnitsToWeigh = 2;
 
 double sum_of_squared_edge_errors(const TargetShape& shape, std::span<const Witness> witnesses) {
   double sum = 0.0;
@@ -178,7 +182,7 @@ bool Acquisition::select(WorkBudget& budget) {
                                                                  : core::Reason::no_matching_subset;
   if (status == SelectStatus::found) {
     m.selection = m.to_finalists(selected);
-    reason = make_lock(m.selection, m.lock);
+    reason = make_lock(m.selection, budget, m.lock);
   }
   if (reason == core::Reason::none) {
     begin_other_labels();
@@ -256,9 +260,7 @@ bool Acquisition::find_rival(WorkBudget& budget) {
   if (status == SelectStatus::work_budget) return false;
   if (status == SelectStatus::found) {
     const Selection rival = m.to_finalists(selected);
-    if (make_lock(rival, m.rival) == core::Reason::none) {
-      m.lock.rivals.push_back(m.rival.log_odds);
-    }
+    if (make_lock(rival, budget, m.rival) == core::Reason::none) add_rival(m.rival);
   }
   if (stage_ == Stage::other_labels) {
     begin_other_places();
@@ -268,11 +270,17 @@ bool Acquisition::find_rival(WorkBudget& budget) {
   return true;
 }
 
+void Acquisition::add_rival(const CandidateLock& rival) {
+  CandidateLock& lock = memory_->lock;
+  if (estimation::same_place(rig_->target, lock.pose, rival.pose)) return;
+  lock.rivals.push_back(rival_log_odds(lock, rival));
+}
+
 // Keeps the better one of this candidate and the one before, each the other's rival.
 void Acquisition::judge() {
   Memory& m = *memory_;
   AcquisitionResult& result = m.result;
-  if (has_candidate_) m.lock.rivals.push_back(result.candidate.log_odds);
+  if (has_candidate_) add_rival(result.candidate);
   const double p = false_lock_probability(m.lock.log_odds, as_span(m.lock.rivals));
   if (!has_candidate_ || p < result.counts.false_lock_probability) {
     has_candidate_ = true;
@@ -293,7 +301,8 @@ void Acquisition::judge() {
 }
 
 // 3.1.5
-core::Reason Acquisition::make_lock(const Selection& selection, CandidateLock& lock) const {
+core::Reason Acquisition::make_lock(const Selection& selection, WorkBudget& budget,
+                                    CandidateLock& lock) const {
   const std::span<const Finalist> finalists = as_span(memory_->search.finalists());
   lock.rivals.clear();
   lock.witnesses = witnesses_of(finalists, selection);
@@ -305,6 +314,7 @@ core::Reason Acquisition::make_lock(const Selection& selection, CandidateLock& l
   const core::Reason reason = estimation::reason_of(estimation::locate(
       rig_->target, as_span(dots), rig_->limits.max_rms_residual_m, nullptr, lock.pose));
   if (reason != core::Reason::none) return reason;
+  budget.spend(kUnitsToWeigh * finalists.size() * selection.dots);
   lock.log_odds =
       log_odds_of_lock(lock.pose, as_span(lock.witnesses)) + ellipse_evidence(selection, lock.pose);
   return core::Reason::none;

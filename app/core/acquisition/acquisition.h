@@ -79,7 +79,8 @@ class Acquisition {
   void judge();
 
   void note(core::Reason reason);
-  core::Reason make_lock(const Selection& selection, CandidateLock& lock) const;
+  void add_rival(const CandidateLock& rival);
+  core::Reason make_lock(const Selection& selection, WorkBudget& budget, CandidateLock& lock) const;
   double ellipse_evidence(const Selection& selection, const core::Pose& pose) const;
   double rival_score() const;
   std::size_t fewest_dots() const;

@@ -12,8 +12,8 @@ namespace dottrack::acquisition {
 namespace {
 
 constexpr std::uint64_t kUnits = 200'000;
-// A step that has begun is finished: what it may take beyond the budget.
-constexpr std::uint64_t kOvershoot = 20'000;
+// A step that has begun is finished. The longest is to weigh a candidate against all finalists.
+constexpr std::uint64_t kOvershoot = 2 * core::kMaxFinalists * core::kMaxDots;
 
 TEST(WorstCase, EveryTickStaysWithinItsBudget) {
   const auto scene = std::make_unique<test::LatticeScene>();
