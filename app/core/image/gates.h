@@ -41,6 +41,7 @@ inline bool passes_size(const RegionGate& gate, int area_px, const Moments& mome
 inline bool passes_shape(const RegionGate& gate, const Moments& moments, std::size_t i) {
   return moments.semi_minor[i] >= gate.min_axis_ratio * moments.semi_major[i] &&
          moments.fill[i] >= gate.min_fill &&
+         (1.0 - moments.fill[i]) * moments.semi_minor[i] <= gate.max_lack_px &&
          moments.box_misfit[i] <=
              gate.max_box_misfit_px + gate.max_box_misfit_part * moments.semi_major[i];
 }

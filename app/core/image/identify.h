@@ -33,6 +33,9 @@ struct RegionGate {
   // a check of the symmetry of the shape, early).
   double max_box_misfit_px = 1e9;
   double max_box_misfit_part = 0.0;
+  // What fill lacks of 1, times the semi-minor axis: a ragged rim costs an ellipse of any size
+  // about as much, another shape the more the larger it is.
+  double max_lack_px = 1e9;
   int min_area_px = 2;  // a single pixel is never a dot
 };
 

@@ -55,5 +55,12 @@ TEST(DotGate, AsksForACoreOnlyWhereContrastIsAskedFor) {
   EXPECT_EQ(gate.semi_major_max_px, 5.0);
 }
 
+TEST(DotGate, AsksForAnEllipse) {
+  const image::RegionGate gate = dot_gate({}, {2.0, 5.0});
+  EXPECT_LT(gate.max_box_misfit_px, 2.0);
+  EXPECT_LT(gate.max_lack_px, 1.0);
+  EXPECT_GT(gate.min_fill, 0.5);
+}
+
 }  // namespace
 }  // namespace dottrack::estimation

@@ -39,6 +39,7 @@ class IdentifyReference : public testing::Test {
     gate.min_area_px = integer(random_, 0, 20);
     gate.max_box_misfit_px = real(random_, 0.1, 4.0);
     gate.max_box_misfit_part = real(random_, 0.0, 0.3);
+    gate.max_lack_px = real(random_, 0.1, 2.0);
     return gate;
   }
 

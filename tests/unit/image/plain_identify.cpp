@@ -119,7 +119,9 @@ class Plain {
       total += w;
       region.saturated_px += picture_.at(p.x, p.y) == 255;
     }
-    region.centroid_px = weighted / total;
+    // Rounded as identify does: half a pixel decides which one is the middle.
+    const Eigen::Vector2d corner(region.x_min, region.y_min);
+    region.centroid_px = corner + (weighted - total * corner) * (1.0 / total);
     set_ellipse(region, points, mean);
     region.core_contrast_dn = core_contrast(region.centroid_px, points);
     return region;
@@ -186,7 +188,8 @@ class Plain {
         region.semi_major_px > gate.semi_major_max_px) {
       ++result.counts.rejected_size;
     } else if (region.semi_minor_px < gate.min_axis_ratio * region.semi_major_px ||
-               fill < gate.min_fill || region.core_contrast_dn < gate.min_core_contrast_dn ||
+               fill < gate.min_fill || (1.0 - fill) * region.semi_minor_px > gate.max_lack_px ||
+               region.core_contrast_dn < gate.min_core_contrast_dn ||
                region.box_misfit_px >
                    gate.max_box_misfit_px + gate.max_box_misfit_part * region.semi_major_px) {
       ++result.counts.rejected_shape;
