@@ -64,6 +64,40 @@ TEST(Program, AnswersWrongInputWithOneLineAndStatus2) {
                    "none.cahv: no such file; expected a camera model in JPL's text format");
 }
 
+TEST(Program, JudgesATargetByItsStatus) {
+  const test::TemporaryFolder folder;
+  const std::string header = "dot,x_m,y_m,z_m,diameter_m\n";
+  const std::string corners = "2,-0.3,0.3,0,0.05\n3,-0.3,-0.3,0,0.05\n4,0.3,-0.3,0,0.05\n";
+  folder.write("square.csv", header + "1,0.3,0.3,0,0.05\n" + corners);
+  folder.write("good.csv", header + "1,0.6,0.3,0,0.05\n" + corners);
+  const std::string check = "target check " + folder.path().string();
+  const Outcome square = dottrack(check + "/square.csv");
+  EXPECT_EQ(square.status, 1);
+  EXPECT_THAT(square.out, HasSubstr("\nambiguous: move dot \"1\" by 18.6 mm"));
+  EXPECT_EQ(dottrack(check + "/good.csv").status, 0);
+  EXPECT_EQ(dottrack(check + "/good.csv --sigma-mm 40").status, 1);
+  expect_wrong_use("target check none.csv",
+                   "none.csv: no such file; expected a target file with the header "
+                   "dot,x_m,y_m,z_m,diameter_m");
+  expect_wrong_use("target check good.csv --rig none.toml",
+                   "none.toml: no such file; expected a rig file");
+}
+
+TEST(Program, DesignsATargetThatItFindsGood) {
+  const test::TemporaryFolder folder;
+  const std::string out = (folder.path() / "new/panel").string();
+  const Outcome outcome = dottrack("target design 4 --panel 0.5x0.4 --out " + out);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("\ngood: "));
+  EXPECT_EQ(dottrack("target check " + out + "/target.csv").status, 0);
+  EXPECT_THAT(text_of(out + "/target.svg"), testing::StartsWith("<svg "));
+  for (const char* panel : {"1.2", "0x1", "1x-1", "1x2x3", "axb", "1x101"}) {
+    expect_wrong_use("target design 4 --out o --panel " + std::string(panel),
+                     "--panel is \"" + std::string(panel) +
+                         "\"; expected two lengths in metres, along x and y, as in 1.2x0.8");
+  }
+}
+
 TEST(Program, HelpsOnStandardOutput) {
   const Outcome outcome = dottrack("--help");
   EXPECT_EQ(outcome.status, 0);
