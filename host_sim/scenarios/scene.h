@@ -28,9 +28,9 @@ struct SceneCamera {
 struct DotAppearance {
   double distance_min_m = 2.0;
   double distance_max_m = 14.0;
-  int intensity_min_dn = 50;
+  int intensity_min_dn = 30;
   int intensity_max_dn = 255;
-  int min_contrast_dn = 25;
+  int min_contrast_dn = 12;
   int background_px = 41;
   double max_step_m = 0.2;
 };
