@@ -16,6 +16,10 @@ namespace {
 // among the finalists of many views first, then of fewer.
 constexpr std::array<int, 3> kViewLayers = {4, 3, 2};
 
+// A later candidate takes the place of an earlier one, of more dots or more views, only when it is
+// clearly less probable to be false.
+constexpr double kClearlyLess = 0.5;
+
 // Work to weigh one dot of a candidate, by finalist: each may be clutter near it.
 constexpr std::uint64_t kUnitsToWeigh = 2;
 
@@ -282,7 +286,7 @@ void Acquisition::judge() {
   AcquisitionResult& result = m.result;
   if (has_candidate_) add_rival(result.candidate);
   const double p = false_lock_probability(m.lock.log_odds, as_span(m.lock.rivals));
-  if (!has_candidate_ || p < result.counts.false_lock_probability) {
+  if (!has_candidate_ || p < kClearlyLess * result.counts.false_lock_probability) {
     has_candidate_ = true;
     result.candidate = m.lock;
     result.counts.false_lock_probability = p;

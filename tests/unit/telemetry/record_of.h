@@ -26,8 +26,8 @@ inline CycleRecord record_with_pose(std::uint64_t tick) {
   result.dots[0].views[1].used = true;
   result.dots[0].views[1].pixel = {12.5F, 99.25F};
   result.dots[0].views[1].residual_px = 0.125F;
-  result.cameras[0] = {true, true, 7, 9, false};
-  result.cameras[1] = {false, false, 0, 0, true};
+  result.cameras[0] = {.delivered = true, .used = true, .regions = 7, .components = 9};
+  result.cameras[1] = {.overflow = true};
   result.acquisition.pairs_tested = 1234;
   result.acquisition.false_lock_probability = 0.25;
   result.false_lock_probability = 0.125;

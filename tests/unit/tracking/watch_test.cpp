@@ -63,17 +63,6 @@ TEST_F(WatchTest, AWrongLockLivesForThreeTicksAtMost) {
   EXPECT_LE(result.false_lock_probability, room_.rig.limits.max_false_lock_probability);
 }
 
-TEST_F(WatchTest, AWrongLabellingIsPutRight) {
-  // The look-alike of the vehicle turned round, in the same place.
-  decoy_ = PaintedRoom::pose_at(4.2, 3.0, 0.3);
-  vehicle_ = PaintedRoom::pose_at(4.3, 3.1, 0.3 + 2.1);
-  Tracker tracker(room_.rig);
-  be_led_astray(tracker);
-  int wrong = 1;
-  while (wrong < 10 && !is_at(tracker.step(room_.frames()), vehicle_)) ++wrong;
-  EXPECT_LE(wrong, 3);
-}
-
 TEST_F(WatchTest, WithoutTheWatchAWrongLockStays) {
   room_.rig.limits.watch_every_ticks = 0;
   Tracker tracker(room_.rig);
@@ -144,15 +133,16 @@ TEST_F(WatchTest, ASymmetricTargetIsNeverLockedOnTo) {
 class HeldBackTest : public testing::Test {
  protected:
   // Three dots among clutter that offers a triangle by chance now and then.
-  HeldBackTest() : room_(3) { room_.rig.limits.max_false_lock_probability = 1e-9; }
   const TickResult& show(Tracker& tracker, const Pose& pose) {
     room_.clear();
     room_.paint_vehicle(pose);
     room_.paint_clutter(6, 12);
-    return tracker.step(room_.frames());
+    time_ += std::chrono::milliseconds(100);
+    return tracker.step(room_.frames(time_));
   }
 
-  PaintedRoom room_;
+  PaintedRoom room_{3};
+  Time time_{};
 };
 
 TEST_F(HeldBackTest, ThreeDotsThatStandStillAreNotBelieved) {
