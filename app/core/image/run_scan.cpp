@@ -59,6 +59,13 @@ RunCounts scan_words(const Bitmap& bitmap, std::span<const PixelKey> words, EndW
   return counts;
 }
 
+std::size_t count_runs(const Bitmap& bitmap, std::span<const PixelKey> words, EndWord* scratch) {
+  const std::size_t end_words = find_ends(bitmap, words, scratch);
+  int count = 0;
+  for (std::size_t i = 0; i < end_words; ++i) count += std::popcount(scratch[i].first);
+  return static_cast<std::size_t>(count);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace dottrack::image
 HWY_AFTER_NAMESPACE();
@@ -67,6 +74,7 @@ HWY_AFTER_NAMESPACE();
 namespace dottrack::image {
 
 HWY_EXPORT(scan_words);
+HWY_EXPORT(count_runs);
 
 void RunList::clear() {
   counts_ = {};
@@ -83,22 +91,24 @@ void RunList::scan(const Bitmap& bitmap, int y_end) {
   if (overflow_ == 0) rows_searched_ = y_end;
   while (words_scanned_ < words_end) {
     const std::size_t count = std::min(words_end - words_scanned_, kMaxWords);
-    const std::size_t size_before = size();
-    counts_ = HWY_DYNAMIC_DISPATCH(scan_words)(bitmap, listed.subspan(words_scanned_, count),
-                                               end_words_.data(), runs_.data(), counts_);
+    const std::span<const PixelKey> words = listed.subspan(words_scanned_, count);
     words_scanned_ += count;
-    if (size() > kCapacity || overflow_ > 0) take_back_rows_that_overflow(size_before);
+    if (overflow_ > 0) {
+      overflow_ += static_cast<std::uint32_t>(
+          HWY_DYNAMIC_DISPATCH(count_runs)(bitmap, words, end_words_.data()));
+      continue;
+    }
+    counts_ =
+        HWY_DYNAMIC_DISPATCH(scan_words)(bitmap, words, end_words_.data(), runs_.data(), counts_);
+    if (size() > kCapacity) take_back_rows_that_overflow();
   }
 }
 
-void RunList::take_back_rows_that_overflow(std::size_t size_before) {
+void RunList::take_back_rows_that_overflow() {
   const std::size_t size_with = size();
-  std::size_t kept = size_before;
-  if (overflow_ == 0) {
-    rows_searched_ = row(runs_[kCapacity].first);
-    kept = size_with;
-    while (kept > 0 && row(runs_[kept - 1].first) >= rows_searched_) --kept;
-  }
+  std::size_t kept = size_with;
+  rows_searched_ = row(runs_[kCapacity].first);
+  while (kept > 0 && row(runs_[kept - 1].first) >= rows_searched_) --kept;
   counts_ = {kept, kept};
   overflow_ += static_cast<std::uint32_t>(size_with - kept);
 }

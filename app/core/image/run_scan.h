@@ -50,7 +50,7 @@ class RunList {
   static constexpr std::size_t kMaxWords = 256;
   static constexpr std::size_t kSpare = kMaxWords * (Bitmap::kWordBits / 2) + 2;
 
-  void take_back_rows_that_overflow(std::size_t size_before);
+  void take_back_rows_that_overflow();
 
   std::array<EndWord, kMaxWords + 1> end_words_{};
   std::array<Run, kCapacity + kSpare> runs_{};
