@@ -63,11 +63,15 @@ HWY_INLINE Vector arc_tangent(Vector y, Vector x) {
 }
 
 // One ray in each lane: what its own window, box and place ask of the other camera's ray.
+// The constructors are spelled out: those of the compiler's making would be built for another
+// processor.
 struct Wishes {
+  HWY_INLINE Wishes() {}
   Vector half_width, low, high, miss_slope, miss_offset;
 };
 
 struct Ray {
+  HWY_INLINE Ray() {}
   Vector angle, sine, cosine, cotangent, near, far, box_tangent;
 };
 

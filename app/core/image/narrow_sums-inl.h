@@ -143,12 +143,13 @@ HWY_INLINE void sum(const SumsOf& of, const Component& component, int first_colu
                     RegionSums& sums) {
   const hn::Rebind<std::uint8_t, Columns> bytes;
   const auto flip =
-      hn::Set(kColumns, std::int16_t{of.polarity == core::Polarity::bright ? 255 : 0});
+      hn::Set(kColumns, static_cast<std::int16_t>(of.polarity == core::Polarity::bright ? 255 : 0));
   const PixelKey corner = component.y_min * kRowStep + first_column;
   const std::uint8_t* const pixels = of.pixels.row(component.y_min) + first_column;
   const std::uint8_t* const values = of.values.row(component.y_min) + first_column;
   const std::ptrdiff_t stride = of.pixels.stride_bytes;
-  ColumnSums columns[kVectors];  // not a std::array: its constructor is not of this target
+  ColumnSums
+      columns[std::size_t{kVectors}];  // not a std::array: its constructor is not of this target
   for (std::uint32_t i = component.head; i != Components::kEnd; i = of.components.next_run(i)) {
     const Run run = of.runs[i];
     const int y = row(run.first - corner);
