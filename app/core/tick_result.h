@@ -60,8 +60,8 @@ struct CameraTick {
   std::uint32_t sightings = 0;       // of the regions: taken into matching
   // While tracking: regions in a dot's place that do not have the shape of that dot.
   std::uint32_t rejected_ellipse = 0;
-  bool overflow = false;             // a capacity was reached: some regions were left out
-  bool stale = false;                // delivered the picture of the tick before again: left out
+  bool overflow = false;  // a capacity was reached: some regions were left out
+  bool stale = false;     // delivered the picture of the tick before again: left out
 };
 
 // How many candidates each gate of acquisition left over (paper 3.1.2 to 3.1.5).

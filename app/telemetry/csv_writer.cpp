@@ -134,8 +134,9 @@ std::string header(const std::vector<std::string>& cameras, std::size_t dots) {
     }
   }
   for (const auto& [name, value] : count_columns({})) line << name;
-  for (const std::string_view name : {"candidate_false_lock_probability", "false_lock_probability", "vx_m_s",
-                                      "vy_m_s", "vz_m_s", "wx_rad_s", "wy_rad_s", "wz_rad_s"}) {
+  for (const std::string_view name :
+       {"candidate_false_lock_probability", "false_lock_probability", "vx_m_s", "vy_m_s", "vz_m_s",
+        "wx_rad_s", "wy_rad_s", "wz_rad_s"}) {
     line << name;
   }
   line.end();
