@@ -20,7 +20,7 @@ check_instructions() {
   count=$(count_instructions "$name") || return
   verdict=$(awk -v n="$count" -v f="$figure" 'BEGIN {
     r = f > 0 ? n / f : 99
-    print r > 1.05 ? "too many" : r < 0.95 ? "lower the figure" : "as before" }')
+    print (r > 1.05 ? "too many" : r < 0.95 ? "lower the figure" : "as before") }')
   printf '%-24s %12d instructions, %12d committed: %s\n' "$name" "$count" "$figure" "$verdict"
   [[ $verdict != "too many" ]]
 }
