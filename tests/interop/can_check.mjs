@@ -120,7 +120,7 @@ function check(dottrack, log, values) {
   const addressing = addressingArgs(values);
   const decode = readerOf(run(dottrack, ['dbc', ...addressing]));
   const messages = framesOf(log).map(decode).filter(Boolean);
-  const monitored = run(dottrack, ['monitor', '--log', log, '--json', '--signals', ...addressing]);
+  const monitored = run(dottrack, ['monitor', '--log', log, '--json', '--signals', '--age-limit', '5', ...addressing]);
   const lines = monitored.split('\n').filter(Boolean).map((line) => JSON.parse(line));
   const found = compare(messages, lines.filter((line) => 'signals' in line));
   return found + (values.poses ? compareTracker(messages, readFileSync(values.poses, 'utf8')) : '');
