@@ -53,14 +53,13 @@ int FinalistBuilder::take(const CandidatePair& pair, int min_views, WorkBudget& 
   }
   PointViews alone;
   for (std::size_t side = 0; side < 2; ++side) alone.set(pair.camera[side], pair.sighting[side]);
-  PointLook look;
-  finder_.look(pair.point_m, look);
-  const int close = std::popcount(static_cast<unsigned>(look.close.bits() | alone.cameras.bits()));
+  const CameraSet look = finder_.look(pair.point_m);
+  const int close = std::popcount(static_cast<unsigned>(look.bits() | alone.cameras.bits()));
   const bool vague = finder_.is_vague(pair);
   if (close < min_views && !vague) return close;
   budget.spend(kVerifyUnits);
   const PointViews seen = finder_.views_of(
-      pair.point_m, vague ? finder_.seeing() : look.close,
+      pair.point_m, vague ? finder_.seeing() : look,
       vague ? std::numeric_limits<double>::infinity() : kClose_px, alone, min_views);
   if (seen.cameras.size() < min_views) return min_views - 1;
   if (seen.cameras.size() > 2) {

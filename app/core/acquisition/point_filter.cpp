@@ -29,8 +29,7 @@ HWY_INLINE Vector dot(const std::array<PointFilter::PerCamera, 3>& axis, std::si
 
 // One camera in every lane: CAHVOR's projection, then the bit of its map.
 HWY_INLINE std::uint32_t look_at(const PointFilter::Cameras& c, const std::uint32_t* maps,
-                                 std::size_t i, Vector px, Vector py, Vector pz, float margin_px,
-                                 PointLook& result) {
+                                 std::size_t i, Vector px, Vector py, Vector pz, float margin_px) {
   const Lanes lanes;
   const Integers integers;
   const auto zero = hn::Zero(lanes);
@@ -54,9 +53,6 @@ HWY_INLINE std::uint32_t look_at(const PointFilter::Cameras& c, const std::uint3
   const auto range = along(c.a, c.oa);
   const auto x = hn::Div(along(c.h, c.oh), range);
   const auto y = hn::Div(along(c.v, c.ov), range);
-  hn::StoreU(x, lanes, &result.x_px[i]);
-  hn::StoreU(y, lanes, &result.y_px[i]);
-
   const auto margin = hn::Set(lanes, margin_px);
   const auto column = hn::Mul(hn::Add(x, margin), load(c.cells_per_px));
   const auto row = hn::Mul(hn::Add(y, margin), load(c.cells_per_px));
@@ -83,14 +79,14 @@ HWY_INLINE std::uint32_t look_at(const PointFilter::Cameras& c, const std::uint3
 }
 
 std::uint32_t look_at_all(const PointFilter::Cameras& cameras, const std::uint32_t* maps,
-                          const Eigen::Vector3f& point, float margin_px, PointLook& result) {
+                          const Eigen::Vector3f& point, float margin_px) {
   const Lanes lanes;
   const auto x = hn::Set(lanes, point.x());
   const auto y = hn::Set(lanes, point.y());
   const auto z = hn::Set(lanes, point.z());
   std::uint32_t close = 0;
   for (std::size_t i = 0; i < kMaxCameras; i += hn::Lanes(lanes)) {
-    close |= look_at(cameras, maps, i, x, y, z, margin_px, result) << i;
+    close |= look_at(cameras, maps, i, x, y, z, margin_px) << i;
   }
   return close;
 }
@@ -104,6 +100,9 @@ namespace dottrack::acquisition {
 namespace {
 
 HWY_EXPORT(look_at_all);
+
+// More than single precision is off by anywhere in an image.
+constexpr double kRounding_px = 0.1;
 
 void put(std::array<PointFilter::PerCamera, 3>& to, std::size_t camera,
          const Eigen::Vector3d& from) {
@@ -202,10 +201,10 @@ void PointFilter::draw(std::size_t camera, const estimation::Sightings& sighting
   }
 }
 
-void PointFilter::look(const Eigen::Vector3d& point_m, PointLook& result) const {
+CameraSet PointFilter::look(const Eigen::Vector3d& point_m) const {
   const std::uint32_t close = HWY_DYNAMIC_DISPATCH(look_at_all)(
-      cameras_, maps_.data(), point_m.cast<float>(), static_cast<float>(kMargin_px), result);
-  result.close = CameraSet(static_cast<std::uint16_t>(close | complex_.bits()));
+      cameras_, maps_.data(), point_m.cast<float>(), static_cast<float>(kMargin_px));
+  return CameraSet(static_cast<std::uint16_t>(close | complex_.bits()));
 }
 
 }  // namespace dottrack::acquisition

@@ -16,15 +16,6 @@ namespace dottrack::acquisition {
 // Sightings this close to a point's projection are close, pixels.
 inline constexpr double kClose_px = 3.0;
 
-// More than single precision is off by anywhere in an image.
-inline constexpr double kRounding_px = 0.1;
-
-struct PointLook {
-  CameraSet close;  // every camera that has a sighting within kClose_px, and some others
-  std::array<float, kMaxCameras> x_px{};  // where the point projects to, within kRounding_px
-  std::array<float, kMaxCameras> y_px{};
-};
-
 // Projects with single precision, many cameras at a time, and looks into a map of the image with a
 // bit for every few pixels. Cameras of the CAHVORE model, which takes iterations to project, are
 // taken to be close to everything.
@@ -32,10 +23,8 @@ class PointFilter {
  public:
   void start(std::span<const CameraView> views);
 
-  void look(const Eigen::Vector3d& point_m, PointLook& result) const;
-
-  // Of these cameras, those without a simple model: their pixels mean nothing.
-  CameraSet complex() const { return complex_; }
+  // Every camera that has a sighting within kClose_px of the point's projection, and some others.
+  CameraSet look(const Eigen::Vector3d& point_m) const;
 
   // The cameras, side by side: one number of each.
   using PerCamera = std::array<float, kMaxCameras>;

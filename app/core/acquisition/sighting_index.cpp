@@ -29,8 +29,6 @@ void SightingIndex::build(const CameraView& view) {
   double sum_px = 0.0;
   for (std::size_t i = 0; i < size; ++i) {
     const Sighting& sighting = view.sightings[i];
-    x_[i] = static_cast<float>(sighting.pixel.x());
-    y_[i] = static_cast<float>(sighting.pixel.y());
     const double px = reach_px(sighting);
     reach[i] = px;
     sum_px += px;
@@ -76,52 +74,34 @@ int SightingIndex::row(double y) const {
   return std::clamp(static_cast<int>(y * cells_per_px_), 0, rows_ - 1);
 }
 
-template <class Visit>
-bool SightingIndex::visit_near(double x_px, double y_px, double reach_px,
-                               const Visit& visit) const {
-  const int c0 = column(x_px - reach_px);
-  const int c1 = column(x_px + reach_px);
-  const int r1 = row(y_px + reach_px);
-  for (int r = row(y_px - reach_px); r <= r1; ++r) {
-    for (int c = c0; c <= c1; ++c) {
-      for (std::uint16_t i = heads_[static_cast<std::size_t>(r * columns_ + c)]; i != kNone;
-           i = next_[i]) {
-        if (visit(i)) return true;
-      }
-    }
-  }
-  for (const std::uint16_t i : large_) {
-    if (visit(i)) return true;
-  }
-  return false;
-}
-
-bool SightingIndex::is_near(float x_px, float y_px, float radius_px) const {
-  const auto reach = static_cast<double>(radius_px);
-  return visit_near(static_cast<double>(x_px), static_cast<double>(y_px), reach,
-                    [&](std::uint16_t i) {
-                      const float dx = x_[i] - x_px;
-                      const float dy = y_[i] - y_px;
-                      return dx * dx + dy * dy <= radius_px * radius_px;
-                    });
-}
-
 std::uint16_t SightingIndex::closest(const Vector2d& pixel, const Vector3d& point_m,
                                      double radius_px) const {
   constexpr double kFarAway_px = 1e6;
   std::uint16_t best = kNone;
   if (!(pixel.cwiseAbs().maxCoeff() < kFarAway_px)) return best;
   double least2 = radius_px * radius_px;
-  visit_near(pixel.x(), pixel.y(), std::min(radius_px, reach_px_), [&](std::uint16_t i) {
+  const auto judge = [&](std::uint16_t i) {
     const Sighting& s = view_->sightings[i];
     const double distance2 = (pixel - s.pixel).squaredNorm();
-    if (distance2 > least2 || (distance2 == least2 && i > best)) return false;
-    if (!s.box_contains(pixel, kWidenPart, kWiden_px)) return false;
-    if (!s.window.contains((point_m - s.line.ray.origin).norm())) return false;
+    if (distance2 > least2 || (distance2 == least2 && i > best)) return;
+    if (!s.box_contains(pixel, kWidenPart, kWiden_px)) return;
+    if (!s.window.contains((point_m - s.line.ray.origin).norm())) return;
     least2 = distance2;
     best = i;
-    return false;
-  });
+  };
+  const double reach = std::min(radius_px, reach_px_);
+  const int c0 = column(pixel.x() - reach);
+  const int c1 = column(pixel.x() + reach);
+  const int r1 = row(pixel.y() + reach);
+  for (int r = row(pixel.y() - reach); r <= r1; ++r) {
+    for (int c = c0; c <= c1; ++c) {
+      for (std::uint16_t i = heads_[static_cast<std::size_t>(r * columns_ + c)]; i != kNone;
+           i = next_[i]) {
+        judge(i);
+      }
+    }
+  }
+  for (const std::uint16_t i : large_) judge(i);
   return best;
 }
 

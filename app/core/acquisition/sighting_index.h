@@ -24,16 +24,10 @@ class SightingIndex {
   std::uint16_t closest(const Eigen::Vector2d& pixel, const Eigen::Vector3d& point_m,
                         double radius_px) const;
 
-  // Whether a sighting is no further than radius_px from the pixel.
-  bool is_near(float x_px, float y_px, float radius_px) const;
-
  private:
   static constexpr std::size_t kCells = 4096;
 
   void choose_cells(const core::Camera& camera, double mean_reach_px);
-  // Calls visit(sighting) for all that may be within the distance of the pixel, until it is true.
-  template <class Visit>
-  bool visit_near(double x_px, double y_px, double reach_px, const Visit& visit) const;
   int column(double x) const;
   int row(double y) const;
 
@@ -44,8 +38,6 @@ class SightingIndex {
   int rows_ = 0;
   std::array<std::uint16_t, kCells> heads_{};
   std::array<std::uint16_t, core::kMaxRegions> next_{};
-  std::array<float, core::kMaxRegions> x_{};
-  std::array<float, core::kMaxRegions> y_{};
   StaticVector<std::uint16_t, core::kMaxRegions> large_;  // that reach further
 };
 

@@ -34,17 +34,6 @@ void ViewFinder::start(std::span<const CameraView> views) {
   filter_.start(views);
 }
 
-// What the map's bits say is looked at again by the sightings themselves.
-void ViewFinder::look(const Vector3d& point_m, PointLook& result) const {
-  constexpr auto kReach_px = static_cast<float>(kClose_px + kRounding_px);
-  filter_.look(point_m, result);
-  unsigned left = result.close.bits() & ~static_cast<unsigned>(filter_.complex().bits());
-  for (; left != 0; left &= left - 1) {
-    const auto c = static_cast<std::size_t>(std::countr_zero(left));
-    if (!index_[c].is_near(result.x_px[c], result.y_px[c], kReach_px)) result.close.erase(c);
-  }
-}
-
 PointViews ViewFinder::views_of(const Vector3d& point_m, CameraSet cameras, double radius_px,
                                 const PointViews& known, int enough) const {
   PointViews found = known;
@@ -67,9 +56,7 @@ PointViews ViewFinder::views_of(const Vector3d& point_m, CameraSet cameras, doub
 }
 
 PointViews ViewFinder::close_views(const Vector3d& point_m) const {
-  PointLook look_at;
-  look(point_m, look_at);
-  return views_of(point_m, look_at.close, kClose_px);
+  return views_of(point_m, look(point_m), kClose_px);
 }
 
 bool ViewFinder::is_vague(const CandidatePair& pair) const {

@@ -31,8 +31,8 @@ class ViewFinder {
  public:
   void start(std::span<const CameraView> views);
 
-  // A coarse look at a point: result.close has every camera with a sighting close to it.
-  void look(const Eigen::Vector3d& point_m, PointLook& result) const;
+  // Every camera that has a sighting within kClose_px of the point's projection, and some others.
+  CameraSet look(const Eigen::Vector3d& point_m) const { return filter_.look(point_m); }
 
   // In each of these cameras the sighting closest to the point's projection, of those no further
   // from it than radius_px whose widened box contains it and whose size fits the point's range.
