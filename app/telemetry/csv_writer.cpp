@@ -42,6 +42,10 @@ void write_time(const CycleRecord& record, Line& line) {
   line << record.result.tick << fmt::format("{}.{:09}", ns / 1000000000, ns % 1000000000);
 }
 
+std::string_view word_of(core::Relock relock) {
+  return relock == core::Relock::better_elsewhere ? "better_elsewhere" : "none";
+}
+
 void write_pose(const TickResult& result, Line& line) {
   if (!result.has_pose) return line.skip(kPoseColumns);
   const core::Pose& pose = result.pose;
@@ -81,7 +85,7 @@ void write_dot(const core::DotState& dot, std::size_t cameras, Line& line) {
 
 using CountColumn = std::pair<std::string_view, std::uint64_t>;
 
-std::array<CountColumn, 11> count_columns(const AcquisitionCounts& counts) {
+std::array<CountColumn, 14> count_columns(const AcquisitionCounts& counts) {
   return {{{"pairs_tested", counts.pairs_tested},
            {"rejected_collinear", counts.rejected_collinear},
            {"rejected_behind", counts.rejected_behind},
@@ -92,7 +96,10 @@ std::array<CountColumn, 11> count_columns(const AcquisitionCounts& counts) {
            {"pairs_accepted", counts.pairs_accepted},
            {"finalists", counts.finalists},
            {"acquisition_overflow", counts.overflow},
-           {"work_units", counts.work_units}}};
+           {"work_units", counts.work_units},
+           {"acquisition_ticks", counts.ticks},
+           {"min_views", counts.min_views},
+           {"dots_matched", counts.dots_matched}}};
 }
 
 void header_of_pose(Line& line) {
@@ -121,15 +128,16 @@ void header_of_dot(std::size_t dot, const std::vector<std::string>& cameras, Lin
 std::string header(const std::vector<std::string>& cameras, std::size_t dots) {
   std::string text;
   Line line(text);
-  for (const std::string_view name : {"tick", "t_s", "state", "reason", "reset_count", "ticks_lost",
-                                      "cameras_used", "dots_used"}) {
+  for (const std::string_view name : {"tick", "t_s", "state", "reason", "reset_count", "relock",
+                                      "ticks_lost", "cameras_used", "dots_used"}) {
     line << name;
   }
   header_of_pose(line);
   for (std::size_t dot = 0; dot < dots; ++dot) header_of_dot(dot, cameras, line);
   for (const std::string& camera : cameras) {
     for (const std::string_view name :
-         {"delivered", "used", "regions", "components", "overflow", "stale"}) {
+         {"delivered", "used", "regions", "components", "rejected_size", "rejected_shape",
+          "rejected_sight", "sightings", "overflow", "stale"}) {
       line << fmt::format("{}_{}", camera, name);
     }
   }
@@ -155,13 +163,15 @@ void CsvWriter::do_write(const CycleRecord& record) {
   Line line(line_);
   write_time(record, line);
   line << core::to_string(result.state) << core::to_string(result.reason) << result.reset_count
-       << result.ticks_lost << result.cameras_used.size() << result.dots_used;
+       << word_of(result.relock) << result.ticks_lost << result.cameras_used.size()
+       << result.dots_used;
   write_pose(result, line);
   for (std::size_t dot = 0; dot < dots_; ++dot) write_dot(result.dots[dot], cameras_.size(), line);
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     const core::CameraTick& camera = result.cameras[i];
     line << camera.delivered << camera.used << camera.regions << camera.components
-         << camera.overflow << camera.stale;
+         << camera.rejected_size << camera.rejected_shape << camera.rejected_sight
+         << camera.sightings << camera.overflow << camera.stale;
   }
   for (const auto& [name, value] : count_columns(result.acquisition)) line << value;
   line << result.acquisition.false_lock_probability;

@@ -6,6 +6,7 @@
 #include <exception>
 #include <string>
 
+#include "app/workstation/acquisitions_command.h"
 #include "app/workstation/busload_command.h"
 #include "app/workstation/camera_command.h"
 #include "app/workstation/dbc_command.h"
@@ -55,6 +56,7 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error, int argc,
 void add_commands(CLI::App& app, int& exit_status) {
   dottrack::workstation::add_replay_command(app, exit_status);
   dottrack::workstation::add_sim_command(app, exit_status);
+  dottrack::workstation::add_acquisitions_command(app, exit_status);
   dottrack::workstation::add_experiments_command(app, exit_status);
   dottrack::workstation::add_camera_command(app, exit_status);
   dottrack::workstation::add_target_command(app, exit_status);

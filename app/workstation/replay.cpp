@@ -5,12 +5,15 @@
 #include <cstdio>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "app/config/rig_file.h"
+#include "app/workstation/explainer.h"
 #include "app/workstation/loop_files.h"
 #include "app/workstation/loop_run.h"
+#include "app/workstation/rig_warnings.h"
 #include "drivers/recorded/no_iris.h"
 #include "drivers/recorded/recorded_frame_grabber.h"
 
@@ -49,13 +52,16 @@ RunSummary run(const ReplayOptions& options, const config::RigConfig& config,
   std::function<ImageView(std::size_t)> image;
   if (options.pictures) image = [&](std::size_t camera) { return grabber.loaded_image(camera); };
   hal::CanBus& can = *files.can_log;
+  std::optional<Explainer> explainer;
   LoopRun loop(config, std::move(files), {grabber, iris, can, std::move(image)});
+  if (options.explain) loop.add(explainer.emplace(config, options.explain));
   const std::uint64_t ticks =
       grabber.recorded_ticks() + static_cast<std::uint64_t>(options.repeat) - 1;
   for (std::uint64_t tick = 0; tick < ticks; ++tick) {
     for (const std::string& fault : grabber.load(tick)) warn(fault);
     if (!loop.tick()) break;
   }
+  if (explainer) explainer->finish();
   RunFacts facts;
   facts.bad_frames = grabber.bad_frames();
   return loop.finish(std::move(facts));
@@ -67,6 +73,7 @@ Result<RunSummary> replay(const ReplayOptions& options) {
   if (options.repeat < 1) return fail("--repeat is at least 1");
   const Result<config::RigConfig> config = config::load_rig(options.rig);
   if (!config) return tl::unexpected<Error>(config.error());
+  print_warnings(*config);
   auto clock = std::make_unique<rtos::VirtualClock>();
   const auto grabber = open_frames(options, *config, *clock);
   if (!grabber) return tl::unexpected<Error>(grabber.error());

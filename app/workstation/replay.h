@@ -2,6 +2,8 @@
 // The loop on recorded images: DIR/<camera>/<tick, six digits>.pgm in, poses and pictures out.
 
 #include <filesystem>
+#include <functional>
+#include <string>
 
 #include "app/workstation/run_summary.h"
 #include "hal/base/result.h"
@@ -14,6 +16,8 @@ struct ReplayOptions {
   std::filesystem::path out;
   int repeat = 1;        // the last set of images is shown this many times
   bool pictures = true;  // overlay pictures of the first lock and of the last tick
+  // Takes why ticks have no pose, for a person; empty function: nobody asks.
+  std::function<void(const std::string&)> explain;
 };
 
 // Writes poses.tum, poses.csv, can.log, report.json and pictures/ into options.out. The same images

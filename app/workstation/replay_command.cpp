@@ -43,6 +43,10 @@ void print_summary(const ReplayOptions& options, const RunSummary& summary) {
              (options.out / "pictures").string());
 }
 
+void print_text(const std::string& text) {
+  fmt::print("{}", text);
+}
+
 int run(const ReplayOptions& options) {
   const Result<RunSummary> summary = replay(options);
   if (!summary) {
@@ -71,6 +75,9 @@ void add_replay_command(CLI::App& app, int& exit_status) {
       ->required();
   command->add_option("--repeat", options->repeat, "Show the last set of images this many times")
       ->check(CLI::Range(1, 1000000));
+  command->add_flag_callback(
+      "--explain", [options] { options->explain = print_text; },
+      "Say of every tick without a pose why it has none");
   command->callback([options, &exit_status] { exit_status = run(*options); });
 }
 

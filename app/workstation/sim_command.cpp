@@ -8,12 +8,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/workstation/exit_status.h"
 #include "app/workstation/interrupt.h"
 #include "app/workstation/loop_files.h"
 #include "app/workstation/progress.h"
 #include "app/workstation/sim_run.h"
+#include "app/workstation/trial_summary.h"
 #include "app/workstation/trials.h"
 #include "host_sim/scenarios/scenario_file.h"
 
@@ -29,9 +31,17 @@ struct SimCommand {
   std::optional<std::uint64_t> seed;
   std::optional<std::uint64_t> ticks;
   std::uint64_t acquisitions = 0;
+  std::uint64_t first = 0;
+  int trial_ticks = TrialOptions{}.ticks;
+  bool fine = false;
+  bool explain = false;
   unsigned threads = 0;
   bool pictures = true;
 };
+
+void print_text(const std::string& text) {
+  fmt::print("{}", text);
+}
 
 int complain(const std::string& message, int status) {
   fmt::print(stderr, "dottrack: {}\n", message);
@@ -87,6 +97,7 @@ int run_scene(const host_sim::Scene& scene, const SimCommand& command) {
   options.out = command.out;
   options.record = command.record;
   options.pictures = command.pictures;
+  if (command.explain) options.explain = print_text;
   host_sim::SceneRenderer renderer(scene, command.threads);
   std::optional<Progress> progress;
   progress.emplace(scene.name, scene.ticks, "tick");
@@ -105,12 +116,10 @@ int run_scene(const host_sim::Scene& scene, const SimCommand& command) {
   return sim->good(scene) ? kDone : kFailed;
 }
 
-void print_trials(const TrialSummary& summary, const std::string& title) {
-  fmt::print("  {:<44} {:>8} {:>8} {:>8} {:>8}\n", title, summary.placements, summary.right,
-             summary.wrong, summary.none);
-  for (const auto& [reason, count] : summary.reasons) {
-    fmt::print("      no lock: {:<59} {:>8}\n", reason, count);
-  }
+// Never a wrong lock; and, where there is something to lock on to, a right one.
+bool good(const host_sim::Scene& scene, const std::vector<Trial>& trials) {
+  const TrialSummary able = summary_of(trials, true);
+  return able.wrong + summary_of(trials, false).wrong == 0 && (!scene.vehicle || able.right > 0);
 }
 
 int run_placements(const host_sim::Scene& scene, const SimCommand& command) {
@@ -120,7 +129,10 @@ int run_placements(const host_sim::Scene& scene, const SimCommand& command) {
   progress.emplace(scene.name, command.acquisitions, "acquisition");
   TrialOptions options;
   options.out = command.out;
+  options.first = command.first;
   options.count = command.acquisitions;
+  options.ticks = command.trial_ticks;
+  options.detail = command.fine ? host_sim::Detail::full : host_sim::Detail::quick;
   options.go_on = [&](std::uint64_t done) {
     progress->show(done);
     return !Interrupt::wanted();
@@ -128,25 +140,19 @@ int run_placements(const host_sim::Scene& scene, const SimCommand& command) {
   const auto run = run_trials(scene, renderer, options);
   progress.reset();
   if (!run) return complain(run.error().message, kWrongUse);
-  const TrialSummary able = summary_of(run->trials, true);
-  const TrialSummary unable = summary_of(run->trials, false);
-  fmt::print("  {:<44} {:>8} {:>8} {:>8} {:>8}\n", "random placements", "all", "right", "wrong",
-             "none");
-  print_trials(able, "enough dots in two views to lock on to");
-  print_trials(unable, "too few");
+  if (run->trials.size() < command.acquisitions) {
+    fmt::print("stopped after {} of {} placements\n", run->trials.size(), command.acquisitions);
+  }
+  fmt::print("{}", summary_text(run->trials));
   print_row("speed",
             fmt::format("{:.1f} acquisitions a second, rendering included", run->trials_per_s));
-  fmt::print("results: {}\n", (command.out / "acquisitions.csv").string());
-  return able.wrong + unable.wrong == 0 && able.right > 0 ? kDone : kFailed;
+  fmt::print("results: {} and calibration.csv\n", (command.out / "acquisitions.csv").string());
+  return good(scene, run->trials) ? kDone : kFailed;
 }
 
 int run(const SimCommand& command) {
   const auto scene = load(command);
   if (!scene) return complain(scene.error().message, kWrongUse);
-  if (command.acquisitions > 0 && !scene->vehicle) {
-    return complain(scene->name + " has no vehicle to acquire; expected a scenario with one",
-                    kWrongUse);
-  }
   fmt::print("{}: {} ({} cameras, {} dots, seed {})\n", scene->name, scene->description,
              scene->cameras.size(), scene->target.size(), scene->seed);
   std::fflush(stdout);
@@ -155,6 +161,27 @@ int run(const SimCommand& command) {
     return complain(made.error().message, kWrongUse);
   }
   return command.acquisitions == 0 ? run_scene(*scene, command) : run_placements(*scene, command);
+}
+
+void add_trial_options(CLI::App& sub, SimCommand& command, CLI::Option& record) {
+  auto* const acquisitions =
+      sub.add_option("--acquisitions", command.acquisitions,
+                     "Instead of the scenario's motion: this many random placements of the "
+                     "vehicle among random clutter (of the clutter alone where the scenario has "
+                     "no vehicle), an acquisition each");
+  acquisitions->check(CLI::Range(1, 10000000))->excludes(&record);
+  sub.add_option("--first", command.first,
+                 "Index of the first placement: a long run can be made in pieces")
+      ->check(CLI::Range(0, 1000000000))
+      ->needs(acquisitions);
+  sub.add_option("--trial-ticks", command.trial_ticks,
+                 "Ticks that each placement stands still for until there is a lock")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000))
+      ->needs(acquisitions);
+  sub.add_flag("--fine", command.fine,
+               "Placements rendered with every shadow, as a run's ticks are; slower")
+      ->needs(acquisitions);
 }
 
 }  // namespace
@@ -169,13 +196,10 @@ void add_sim_command(CLI::App& app, int& exit_status) {
   sub->add_option("--ticks", command->ticks, "Another length than the scenario's");
   auto* const record = sub->add_option("--record", command->record,
                                        "Folder for the frames, as `dottrack replay` reads them");
-  sub->add_option("--acquisitions", command->acquisitions,
-                  "Instead of the scenario's motion: this many random placements, one acquisition "
-                  "each")
-      ->check(CLI::Range(1, 10000000))
-      ->excludes(record);
+  add_trial_options(*sub, *command, *record);
   sub->add_option("--threads", command->threads, "For rendering; 0: as many as the machine has")
       ->check(CLI::Range(0, 256));
+  sub->add_flag("--explain", command->explain, "Say of every tick without a pose why it has none");
   sub->add_flag("!--no-pictures", command->pictures, "No overlay pictures and no plots");
   sub->callback([command, &exit_status] { exit_status = run(*command); });
 }

@@ -4,11 +4,14 @@
 
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "app/config/rig_file.h"
+#include "app/workstation/explainer.h"
 #include "app/workstation/loop_files.h"
 #include "app/workstation/loop_run.h"
+#include "app/workstation/rig_warnings.h"
 #include "app/workstation/sim_plots.h"
 #include "host_sim/hal/frame_recorder.h"
 #include "host_sim/hal/sim_can_bus.h"
@@ -88,6 +91,7 @@ class Simulation {
                options.pictures ? [this](std::size_t i) { return grabber_.picture(i); }
                                 : std::function<ImageView(std::size_t)>{}}) {
     loop_.add(truth_);
+    if (options.explain) loop_.add(explainer_.emplace(config, options.explain));
   }
 
   Result<void> record_to(const fs::path& folder) {
@@ -131,6 +135,7 @@ class Simulation {
   void finish(SimSummary& sim) {
     RunFacts facts;
     facts.more = truth_members(scene_, sim);
+    if (explainer_) explainer_->finish();
     note(truth_tum_.finish());
     if (recorder_) note(recorder_->finish());
     if (options_.pictures) {
@@ -152,6 +157,7 @@ class Simulation {
   host_sim::SimCanBus can_;
   telemetry::OutputFile truth_tum_;
   TruthRecord truth_;
+  std::optional<Explainer> explainer_;
   LoopRun loop_;
   std::unique_ptr<host_sim::FrameRecorder> recorder_;
   std::string fault_;
@@ -174,6 +180,7 @@ Result<SimSummary> simulate(const Scene& scene, host_sim::SceneRenderer& rendere
   }
   const Result<config::RigConfig> config = config::load_rig(rig / "rig.toml");
   if (!config) return tl::unexpected<Error>(config.error());
+  print_warnings(*config);
   Result<telemetry::OutputFile> truth_tum =
       telemetry::OutputFile::create(options.out / "truth.tum");
   if (!truth_tum) return tl::unexpected<Error>(truth_tum.error());

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "app/workstation/run_summary.h"
@@ -21,6 +22,8 @@ struct SimOptions {
   bool pictures = true;          // overlay pictures and plots
   // What the tracker is told of its cameras, in the scene's order; empty: the truth.
   std::span<const host_sim::SimCamera> models;
+  // Takes why ticks have no pose, for a person; empty function: nobody asks.
+  std::function<void(const std::string&)> explain;
   // Called after every tick with the ticks done; false ends the run there.
   std::function<bool(std::uint64_t)> go_on;
 };

@@ -1,19 +1,21 @@
 #include "app/workstation/trials.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "app/config/rig_file.h"
 #include "app/core/tracker.h"
 #include "app/telemetry/output_file.h"
 #include "app/workstation/loop_files.h"
+#include "app/workstation/rig_warnings.h"
+#include "app/workstation/trial_summary.h"
 #include "app/workstation/truth_record.h"
 #include "host_sim/scenarios/body_scenes.h"
+#include "host_sim/scenarios/parallel.h"
 #include "host_sim/scenarios/placements.h"
 #include "host_sim/scenarios/scene_files.h"
 #include "host_sim/scenarios/visibility.h"
@@ -24,84 +26,154 @@ namespace {
 using host_sim::GreyImage;
 using host_sim::Placement;
 using host_sim::Scene;
+using host_sim::SceneRenderer;
 using Watch = std::chrono::steady_clock;
 
-std::array<core::CameraFrame, kMaxCameras> frames_of(const std::vector<GreyImage>& images) {
-  std::array<core::CameraFrame, kMaxCameras> frames{};
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    frames[i].delivered = true;
-    frames[i].image = host_sim::view(images[i]);
-  }
-  return frames;
+// Placements at a time: their pictures are made camera by camera, then each is tracked by itself.
+constexpr std::uint64_t kBatch = 8;
+
+// Of a second and later look at the same placement: other noise than any placement's first.
+std::uint64_t noise_of(std::uint64_t index, int tick) {
+  return index + (static_cast<std::uint64_t>(tick) << 40U);
 }
+
+bool is_held_back(core::Reason reason) {
+  return reason == core::Reason::held_back || reason == core::Reason::ambiguous;
+}
+
+// A placement on its way from its index to its outcome.
+struct Attempt {
+  Placement placement;
+  std::unique_ptr<host_sim::BodyScenes> bodies;
+  Trial trial;
+};
 
 class Trials {
  public:
-  Trials(const Scene& scene, host_sim::SceneRenderer& renderer, const core::Rig& rig)
-      : scene_(scene), renderer_(renderer), rig_(rig) {}
+  Trials(const Scene& scene, SceneRenderer& renderer, const config::RigConfig& config,
+         const TrialOptions& options)
+      : scene_(scene), renderer_(renderer), config_(config), options_(options) {}
 
-  Trial run(std::uint64_t index) {
-    const Placement placement =
-        host_sim::random_placement(scene_, renderer_.hall().scene, scene_.seed, index);
-    const host_sim::BodyScenes bodies(placement.bodies);
-    renderer_.render(exposures(placement, index), bodies.moving(), placement.light, images_);
-    Trial trial = described(placement, index);
-    const auto views = host_sim::views_of_dots(scene_.cameras, scene_.target, placement.vehicle,
-                                               renderer_.hall(), bodies.moving(), 0.0);
-    trial.dots_in_two_views = host_sim::dots_in_two_views(views);
-    acquire(placement, trial);
-    return trial;
+  std::vector<Trial> run(std::uint64_t first, std::uint64_t count) {
+    std::vector<Attempt> attempts(count);
+    shots_.resize(count);
+    host_sim::for_each_index(count, renderer_.threads(), [&](std::size_t i) {
+      attempts[i] = placed(first + i);
+      fill(shots_[i], attempts[i]);
+    });
+    renderer_.collect(shots_, options_.detail);
+    host_sim::for_each_index(count, renderer_.threads(),
+                             [&](std::size_t i) { acquire(shots_[i], attempts[i]); });
+    std::vector<Trial> trials;
+    for (Attempt& attempt : attempts) trials.push_back(std::move(attempt.trial));
+    return trials;
   }
 
  private:
-  std::vector<host_sim::Exposure> exposures(const Placement& placement, std::uint64_t index) const {
-    std::vector<host_sim::Exposure> all;
-    for (std::size_t i = 0; i < scene_.cameras.size(); ++i) {
-      const host_sim::SceneCamera& camera = scene_.cameras[i];
-      all.push_back(
-          {0.0, camera.exposure_s, camera.gain, placement.opening, {scene_.seed, i, index}});
-    }
-    return all;
-  }
-
-  Trial described(const Placement& placement, std::uint64_t index) const {
-    Trial trial;
+  Attempt placed(std::uint64_t index) const {
+    Attempt attempt;
+    attempt.placement =
+        host_sim::random_placement(scene_, renderer_.hall().scene, scene_.seed, index);
+    attempt.bodies = std::make_unique<host_sim::BodyScenes>(attempt.placement.bodies);
+    Trial& trial = attempt.trial;
     trial.index = index;
-    trial.x_m = placement.vehicle.position_m.x();
-    trial.y_m = placement.vehicle.position_m.y();
-    trial.yaw_rad = std::atan2(placement.vehicle.rotation(1, 0), placement.vehicle.rotation(0, 0));
     trial.dots = static_cast<int>(scene_.target.size());
-    return trial;
+    if (!attempt.placement.vehicle) return attempt;
+    const host_sim::Pose& vehicle = *attempt.placement.vehicle;
+    trial.x_m = vehicle.position_m.x();
+    trial.y_m = vehicle.position_m.y();
+    trial.yaw_rad = std::atan2(vehicle.rotation(1, 0), vehicle.rotation(0, 0));
+    trial.dots_in_two_views = host_sim::dots_in_two_views(host_sim::views_of_dots(
+        scene_.cameras, scene_.target, vehicle, renderer_.hall(), attempt.bodies->moving(), 0.0));
+    return attempt;
   }
 
-  void acquire(const Placement& placement, Trial& trial) {
-    core::Tracker tracker(rig_);
-    const auto frames = frames_of(images_);
-    const auto start = Watch::now();
-    const core::TickResult& result = tracker.step(frames);
-    trial.acquisition = std::chrono::duration_cast<Duration>(Watch::now() - start);
+  void fill(SceneRenderer::Shot& shot, const Attempt& attempt) const {
+    shot.bodies = attempt.bodies->moving();
+    shot.light = attempt.placement.light;
+    shot.exposures.clear();
+    for (const host_sim::SceneCamera& camera : scene_.cameras) {
+      shot.exposures.push_back(
+          {0.0, camera.exposure_s, camera.gain, attempt.placement.opening, {}});
+    }
+  }
+
+  // Tick by tick, until there is a lock.
+  void acquire(const SceneRenderer::Shot& shot, Attempt& attempt) const {
+    core::Tracker tracker(config_.rig);
+    std::vector<GreyImage> images(scene_.cameras.size());
+    Trial& trial = attempt.trial;
+    for (int tick = 0; tick < options_.ticks && !trial.locked(); ++tick) {
+      const auto frames = frames_of(shot, trial.index, tick, images);
+      const auto start = Watch::now();
+      const core::TickResult& result = tracker.step(frames);
+      trial.acquisition += std::chrono::duration_cast<Duration>(Watch::now() - start);
+      take(result, attempt.placement, trial);
+    }
+  }
+
+  std::array<core::CameraFrame, kMaxCameras> frames_of(const SceneRenderer::Shot& shot,
+                                                       std::uint64_t index, int tick,
+                                                       std::vector<GreyImage>& images) const {
+    std::array<core::CameraFrame, kMaxCameras> frames{};
+    const Duration period(std::llround(1e9 / config_.frame_rate_hz));
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      renderer_.read(shot, i, {scene_.seed, i, noise_of(index, tick)}, images[i]);
+      frames[i] = {true, host_sim::view(images[i]), Time{} + tick * period};
+    }
+    return frames;
+  }
+
+  static PoseError error(const core::Pose& pose, const host_sim::Pose& vehicle) {
+    return error_of(pose, {vehicle.position_m, vehicle.orientation()});
+  }
+
+  static void take(const core::TickResult& result, const Placement& placement, Trial& trial) {
+    const auto& vehicle = placement.vehicle;
     trial.reason = result.reason;
-    if (!result.has_pose) return;
-    const PoseError error =
-        error_of(result.pose, {placement.vehicle.position_m, placement.vehicle.orientation()});
-    trial.position_mm = error.position_mm();
-    trial.attitude_deg = error.attitude_deg();
-    trial.outcome = error.wrong_lock() ? Outcome::wrong_lock : Outcome::right_lock;
+    if (result.has_candidate && !trial.candidate) {
+      trial.candidate = {result.acquisition.false_lock_probability,
+                         vehicle && !error(result.candidate, *vehicle).wrong_lock()};
+    }
+    if (!result.has_pose) {
+      if (is_held_back(result.reason)) trial.outcome = Outcome::held_back;
+      return;
+    }
+    trial.lock_tick = static_cast<int>(result.tick);
+    trial.outcome = Outcome::wrong_lock;
+    if (!vehicle) return;
+    const PoseError off = error(result.pose, *vehicle);
+    trial.position_mm = off.position_mm();
+    trial.attitude_deg = off.attitude_deg();
+    if (!off.wrong_lock()) trial.outcome = Outcome::right_lock;
   }
 
   const Scene& scene_;
-  host_sim::SceneRenderer& renderer_;
-  const core::Rig& rig_;
-  std::vector<GreyImage> images_;
+  SceneRenderer& renderer_;
+  const config::RigConfig& config_;
+  const TrialOptions& options_;
+  std::vector<SceneRenderer::Shot> shots_;  // kept from batch to batch for their memory
 };
 
-constexpr std::string_view kHeader =
-    "index,x_m,y_m,yaw_deg,dots,dots_in_two_views,outcome,reason,position_mm,attitude_deg\n";
+Result<config::RigConfig> told_rig(const Scene& scene, const std::filesystem::path& folder) {
+  if (auto done = host_sim::write_rig(scene, folder); !done) {
+    return tl::unexpected<Error>(done.error());
+  }
+  return config::load_rig(folder / "rig.toml");
+}
 
-std::string csv_line(const Trial& t) {
-  return fmt::format("{},{:.4f},{:.4f},{:.2f},{},{},{},{},{:.3f},{:.4f}\n", t.index, t.x_m, t.y_m,
-                     180.0 / M_PI * t.yaw_rad, t.dots, t.dots_in_two_views, to_string(t.outcome),
-                     core::to_string(t.reason), t.position_mm, t.attitude_deg);
+// Adds to `run` until all are done or nobody wants to go on.
+void run_batches(Trials& trials, const TrialOptions& options, telemetry::OutputFile& csv,
+                 TrialRun& run) {
+  for (std::uint64_t done = 0; done < options.count;) {
+    const std::uint64_t batch = std::min(kBatch, options.count - done);
+    for (Trial& trial : trials.run(options.first + done, batch)) {
+      csv.write(csv_line(trial));
+      run.trials.push_back(std::move(trial));
+    }
+    done += batch;
+    if (options.go_on && !options.go_on(done)) return;
+  }
 }
 
 }  // namespace
@@ -112,56 +184,35 @@ std::string_view to_string(Outcome outcome) {
       return "right";
     case Outcome::wrong_lock:
       return "wrong";
+    case Outcome::held_back:
+      return "held_back";
     case Outcome::no_lock:
       return "none";
   }
   return "none";
 }
 
-TrialSummary summary_of(const std::vector<Trial>& trials, bool lockable) {
-  TrialSummary summary;
-  for (const Trial& trial : trials) {
-    if (trial.lockable() != lockable) continue;
-    ++summary.placements;
-    switch (trial.outcome) {
-      case Outcome::right_lock:
-        ++summary.right;
-        break;
-      case Outcome::wrong_lock:
-        ++summary.wrong;
-        break;
-      case Outcome::no_lock:
-        ++summary.none;
-        ++summary.reasons[std::string(core::to_string(trial.reason))];
-        break;
-    }
-  }
-  return summary;
-}
-
-Result<TrialRun> run_trials(const Scene& scene, host_sim::SceneRenderer& renderer,
+Result<TrialRun> run_trials(const Scene& scene, SceneRenderer& renderer,
                             const TrialOptions& options) {
   if (const auto made = make_folder(options.out); !made) return tl::unexpected<Error>(made.error());
   Result<telemetry::OutputFile> csv =
       telemetry::OutputFile::create(options.out / "acquisitions.csv");
   if (!csv) return tl::unexpected<Error>(csv.error());
-  const auto rig = options.out / "rig";
-  if (auto done = host_sim::write_rig(scene, rig); !done)
-    return tl::unexpected<Error>(done.error());
-  const Result<config::RigConfig> config = config::load_rig(rig / "rig.toml");
+  const Result<config::RigConfig> config = told_rig(scene, options.out / "rig");
   if (!config) return tl::unexpected<Error>(config.error());
-  Trials trials(scene, renderer, config->rig);
+  print_warnings(*config);
+  Trials trials(scene, renderer, *config, options);
   TrialRun run;
-  csv->write(kHeader);
+  csv->write(trials_csv_header());
   const auto start = Watch::now();
-  for (std::uint64_t index = 0; index < options.count; ++index) {
-    run.trials.push_back(trials.run(index));
-    csv->write(csv_line(run.trials.back()));
-    if (options.go_on && !options.go_on(index + 1)) break;
-  }
+  run_batches(trials, options, *csv, run);
   const std::chrono::duration<double> took = Watch::now() - start;
   run.trials_per_s = static_cast<double>(run.trials.size()) / took.count();
   if (auto done = csv->finish(); !done) return tl::unexpected<Error>(done.error());
+  const auto calibration = options.out / "calibration.csv";
+  if (auto done = telemetry::write_file(calibration, calibration_csv(run.trials)); !done) {
+    return tl::unexpected<Error>(done.error());
+  }
   return run;
 }
 

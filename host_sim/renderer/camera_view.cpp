@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "host_sim/renderer/group_light.h"
 #include "host_sim/renderer/live_painter.h"
 #include "host_sim/renderer/shutter.h"
 #include "host_sim/renderer/stage.h"
@@ -64,15 +65,20 @@ struct CameraView::Memory {
           return still_look(stage.backdrop, stage.rays, x, y);
         }) {}
 
-  void set_levels(Levels wanted);
+  void set_levels(Levels wanted, Detail detail);
+  void add_up_lamps();
   void paint(std::span<const Actor> bodies, double weight);
+  const FloatImage& render(const Exposure& exposure, std::span<const MovingBody> bodies,
+                           const LightPlan& light, Detail detail);
   void blur_touched();
 
   const Hall& hall;
   Stage stage;
   Sensor sensor;
   std::optional<Levels> levels;  // of `still`
-  FloatImage still;              // the hall without bodies
+  Detail detail = Detail::full;  // with which it was added up
+  std::optional<GroupLight> groups;
+  FloatImage still;  // the hall without bodies
   FloatImage still_blurred;
   FloatImage light;  // with bodies; equals `still` in tiles that none has touched
   FloatImage blurred;
@@ -81,9 +87,20 @@ struct CameraView::Memory {
   std::vector<bool> touched;  // by tile
 };
 
-void CameraView::Memory::set_levels(Levels wanted) {
-  if (levels && *levels == wanted) return;
+void CameraView::Memory::set_levels(Levels wanted, Detail wanted_detail) {
+  if (levels && *levels == wanted && detail == wanted_detail) return;
   levels = std::move(wanted);
+  detail = wanted_detail;
+  if (detail == Detail::quick && levels->steady()) {
+    if (!groups) groups.emplace(stage.backdrop, hall.lamps, stage.lamps, sensor.model());
+    groups->add_up(*levels, still, still_blurred);
+  } else {
+    add_up_lamps();
+  }
+}
+
+// Lamp by lamp, row by row.
+void CameraView::Memory::add_up_lamps() {
   const Backdrop& backdrop = stage.backdrop;
   std::vector<float> row(static_cast<std::size_t>(still.width_px()));
   for (int y = 0; y < still.height_px(); ++y) {
@@ -111,7 +128,8 @@ void CameraView::Memory::set_levels(Levels wanted) {
 // Adds the bodies at one instant, which makes up `weight` of the exposure.
 void CameraView::Memory::paint(std::span<const Actor> bodies, double weight) {
   if (bodies.empty()) return;
-  LivePainter painter(stage, *levels, still, bodies, still_shares);
+  LivePainter painter(stage, *levels, still, bodies, still_shares,
+                      detail == Detail::quick ? quick_care() : full_care());
   const auto share = static_cast<float>(weight);
   const auto tiles = stage.tiles.tiles();
   for (std::size_t i = 0; i < tiles.size(); ++i) {
@@ -159,29 +177,46 @@ const SimCamera& CameraView::camera() const {
   return memory_->stage.camera;
 }
 
+// The blurred light of all of the picture; valid until the next call.
+const FloatImage& CameraView::Memory::render(const Exposure& exposure,
+                                             std::span<const MovingBody> bodies,
+                                             const LightPlan& plan, Detail wanted_detail) {
+  const std::vector<double> times_s =
+      row_times(exposure, sensor.model().line_time_s, stage.camera.height_px());
+  set_levels(Levels(hall.lamps, plan, times_s), wanted_detail);
+  light = still;
+  touched.assign(stage.tiles.tiles().size(), false);
+  const int count = instants(stage.camera, bodies, exposure);
+  for (int i = 0; i < count; ++i) {
+    const double offset_s = exposure.duration_s * ((i + 0.5) / count - 0.5);
+    paint(bodies_at(bodies, times_s, offset_s), 1.0 / count);
+  }
+  if (std::find(touched.begin(), touched.end(), true) == touched.end()) return still_blurred;
+  if (detail == Detail::quick) {  // the next picture is of another light: nothing to keep
+    levels.reset();
+    std::swap(blurred, still_blurred);
+  } else {
+    blurred = still_blurred;
+  }
+  blur_touched();
+  return blurred;
+}
+
 void CameraView::render(const Exposure& exposure, std::span<const MovingBody> bodies,
                         const LightPlan& light, GreyImage& image) {
   Memory& m = *memory_;
-  const int width_px = camera().width_px();
-  const int height_px = camera().height_px();
-  const std::vector<double> times_s = row_times(exposure, m.sensor.model().line_time_s, height_px);
-  m.set_levels(Levels(m.hall.lamps, light, times_s));
-  m.light = m.still;
-  m.touched.assign(m.stage.tiles.tiles().size(), false);
-  const int count = instants(camera(), bodies, exposure);
-  for (int i = 0; i < count; ++i) {
-    const double offset_s = exposure.duration_s * ((i + 0.5) / count - 0.5);
-    m.paint(bodies_at(bodies, times_s, offset_s), 1.0 / count);
-  }
-  if (image.width_px() != width_px || image.height_px() != height_px) {
-    image = GreyImage(width_px, height_px);
-  }
-  const bool any = std::find(m.touched.begin(), m.touched.end(), true) != m.touched.end();
-  if (any) {
-    m.blurred = m.still_blurred;
-    m.blur_touched();
-  }
-  m.sensor.expose(any ? m.blurred : m.still_blurred, exposure, image);
+  m.sensor.expose(m.render(exposure, bodies, light, Detail::full), exposure, image);
+}
+
+void CameraView::collect(const Exposure& exposure, std::span<const MovingBody> bodies,
+                         const LightPlan& light, Detail detail, FloatImage& charge_dn) {
+  Memory& m = *memory_;
+  m.sensor.collect(m.render(exposure, bodies, light, detail), exposure, charge_dn);
+}
+
+void CameraView::read(const FloatImage& charge_dn, const Exposure& exposure,
+                      GreyImage& image) const {
+  memory_->sensor.read(charge_dn, exposure, image);
 }
 
 }  // namespace dottrack::host_sim

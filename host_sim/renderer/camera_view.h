@@ -3,6 +3,7 @@
 // picture then costs only what moves, and light, shadow and occlusion stay right.
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -31,6 +32,11 @@ struct MovingBody {
   const Motion* motion = nullptr;
 };
 
+// How carefully bodies and their shadows are painted. `quick`, for pictures by the thousand: fewer
+// looks where faces meet, no shadows but of the lamps that matter, weak ones blocky; dots and what
+// stands still are the same but for roundings of the light.
+enum class Detail : std::uint8_t { full, quick };
+
 // Not for two threads at once; two views do not disturb each other. The pictures are the same
 // bytes whatever the number of threads and whatever was rendered before.
 class CameraView {
@@ -44,6 +50,12 @@ class CameraView {
   // The hall with these bodies as they move, and the lamps as they shine, during the exposure.
   void render(const Exposure& exposure, std::span<const MovingBody> bodies, const LightPlan& light,
               GreyImage& image);
+
+  // render() in two steps: what the sensor's pixels hold when the shutter closes (sensor.h), and
+  // that read out. Any number of threads may read, with one noise or another.
+  void collect(const Exposure& exposure, std::span<const MovingBody> bodies, const LightPlan& light,
+               Detail detail, FloatImage& charge_dn);
+  void read(const FloatImage& charge_dn, const Exposure& exposure, GreyImage& image) const;
 
  private:
   struct Memory;

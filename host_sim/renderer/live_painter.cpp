@@ -1,6 +1,7 @@
 #include "host_sim/renderer/live_painter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -14,23 +15,12 @@ namespace {
 using Eigen::Vector3d;
 using Points = std::array<Vector3d, 4>;
 
-constexpr unsigned kEdgeLooks = 8;
-constexpr double kSameDistance = 1e-5;    // relative: what stands in a hit's own place
-constexpr double kStrong = 14.0 / 255.0;  // lamps whose shadows must not be blocky
-// Shares of all light. Lamps that give a body less are taken to be hidden as the others are; those
-// that give less to what stands still throw no shadows on it.
-constexpr double kFaint = 0.04;
-constexpr double kFaintOnStill = 0.015;
-constexpr double kUnseen = 0.3 / 255.0;  // shadows that take away less are left out
+constexpr double kSameDistance = 1e-5;  // relative: what stands in a hit's own place
 
 // Of every how many nodes: a weak lamp's shadow from every second where these agree.
 std::span<const std::size_t> strides(bool strong) {
   static constexpr std::array<std::size_t, 2> kStrides{2, 1};
   return std::span(kStrides).subspan(strong ? 1 : 0);
-}
-
-double tolerance_of(bool strong, std::size_t stride) {
-  return !strong && stride == 1 ? 2.0 * kEvenRadiance : kEvenRadiance;
 }
 
 std::size_t index_of(int thing) {
@@ -46,13 +36,37 @@ unsigned hidden_by(const Actor& body, int y, const Vector3d& from, const Points&
 
 }  // namespace
 
+const Care& full_care() {
+  static constexpr Care kCare{.edge_looks = 8,
+                              .every_pixel = true,
+                              .strong = 14.0 / 255.0,
+                              .faint = 0.04,
+                              .faint_on_still = 0.015,
+                              .unseen = 0.3 / 255.0,
+                              .tolerance = kEvenRadiance};
+  return kCare;
+}
+
+const Care& quick_care() {
+  static constexpr Care kCare{.edge_looks = 4,
+                              .every_pixel = false,
+                              .strong = 90.0 / 255.0,
+                              .faint = 0.2,
+                              .faint_on_still = 0.12,
+                              .unseen = 10.0 / 255.0,
+                              .tolerance = 8.0 / 255.0};
+  return kCare;
+}
+
 LivePainter::LivePainter(const Stage& stage, const Levels& levels, const FloatImage& still,
-                         std::span<const Actor> bodies, ShareLattice& still_shares)
+                         std::span<const Actor> bodies, ShareLattice& still_shares,
+                         const Care& care)
     : stage_(stage),
       levels_(levels),
       still_(still),
       bodies_(bodies),
       still_shares_(still_shares),
+      care_(care),
       marks_(bodies, stage.camera, stage.rays),
       face_shares_(stage.lamps.size()) {
   still_shares_.forget();
@@ -100,7 +114,7 @@ void LivePainter::find_shadows(const Tile& tile) {
   const int middle_row = (tile.box.y0 + tile.box.y1) / 2;
   for (std::size_t i = 0; i < stage_.lamps.size(); ++i) {
     const double brightest = static_cast<double>(tile.brightest[i]) * levels_.at(middle_row, i);
-    if (brightest < kUnseen) continue;
+    if (brightest < care_.unseen) continue;
     const LampLight& lamp = stage_.lamps[i];
     if (std::none_of(bodies_.begin(), bodies_.end(),
                      [&](const Actor& body) { return may_shade(body, tile, lamp); })) {
@@ -108,7 +122,7 @@ void LivePainter::find_shadows(const Tile& tile) {
     }
     for (int y = tile.box.y0; y < tile.box.y1; y += kBlock_px) {
       for (int x = tile.box.x0; x < tile.box.x1; x += kBlock_px) {
-        if (all_lit(x, y, i, brightest > kStrong)) continue;
+        if (all_lit(x, y, i, brightest > care_.strong)) continue;
         shaded_lamps_[block_of(tile, x, y)].push_back(i);
         shaded_ = true;
       }
@@ -159,19 +173,25 @@ void LivePainter::paint_seen(const Tile& tile, FloatImage& light) {
     return host_sim::on_mark(body.scene->model().marks[static_cast<std::size_t>(cover.mark)],
                              body.pose(y).to_body(p));
   };
-  const TileSampler sampler(stage_.rays, tile.box, marks_, kEdgeLooks, cast, on_mark);
+  const TileSampler sampler(stage_.rays, tile.box, marks_, care_.edge_looks, cast, on_mark,
+                            care_.every_pixel);
   ShareLattice on_bodies(tile.box, stage_.lamps.size(),
                          [&](int x, int y) -> const Look& { return sampler.centre(x, y); });
   face_shares_.forget();
   Patches patches;
+  const Even none{};
+  std::array<Even, TileIndex::kTile_px / 2> evens{};  // of a row of blocks of 2 x 2 pixels
   for (int y = tile.box.y0; y < tile.box.y1; ++y) {
+    if ((y - tile.box.y0) % 2 == 0) evens.fill(none);
     for (int x = tile.box.x0; x < tile.box.x1; ++x) {
+      Even& even = evens[static_cast<std::size_t>(x - tile.box.x0) / 2];
       double sum = 0.0;
       if (stage_.rays.seen(x, y)) {
         sampler.sample(x, y, patches, [](const Look&) {});
         for (const Patch& patch : patches) {
-          sum += patch.share * (patch.look.thing == kNothing ? still_light(tile, x, y)
-                                                             : radiance(patch, x, y, on_bodies));
+          sum +=
+              patch.share * (patch.look.thing == kNothing ? still_light(tile, x, y)
+                                                          : shaded(patch, x, y, on_bodies, even));
         }
       }
       light.at(x - tile.box.x0, y - tile.box.y0) = static_cast<float>(sum);
@@ -205,6 +225,18 @@ bool LivePainter::hidden_by_hall(const Sight& sight, double distance, int x, int
   return stage_.hall.scene->meet(sight.origin, sight.direction, farthest).part >= 0;
 }
 
+// Where not every pixel is asked for, a bare face that fills a pixel lends its radiance to those of
+// its block that it fills too.
+double LivePainter::shaded(const Patch& patch, int x, int y, ShareLattice& shares, Even& even) {
+  if (care_.every_pixel || patch.mark >= 0 || patch.share < 1.0) {
+    return radiance(patch, x, y, shares);
+  }
+  if (even.look.thing == kNothing || !same_face(even.look, patch.look)) {
+    even = {patch.look, radiance(patch, x, y, shares)};
+  }
+  return even.radiance;
+}
+
 double LivePainter::radiance(const Patch& patch, int x, int y, ShareLattice& shares) {
   const Actor& body = bodies_[index_of(patch.look.thing)];
   const Finish finish =
@@ -220,7 +252,7 @@ double LivePainter::radiance(const Patch& patch, int x, int y, ShareLattice& sha
   if (finish.lamp >= 0) {
     sum += levels_.at(y, static_cast<std::size_t>(finish.lamp)) * finish.emission;
   }
-  const double faint = kFaint * std::accumulate(radiance_.begin(), radiance_.end(), 0.0);
+  const double faint = care_.faint * std::accumulate(radiance_.begin(), radiance_.end(), 0.0);
   double faintly = 0.0;
   double strongly = 0.0;
   double seen = 0.0;
@@ -235,9 +267,13 @@ double LivePainter::radiance(const Patch& patch, int x, int y, ShareLattice& sha
   return sum + seen + (strongly > 0.0 ? faintly * seen / strongly : faintly);
 }
 
+double LivePainter::tolerance_of(bool strong, std::size_t stride) const {
+  return !strong && stride == 1 ? 2.0 * care_.tolerance : care_.tolerance;
+}
+
 double LivePainter::share_of_patch(const Patch& patch, std::size_t lamp, int x, int y,
                                    ShareLattice& shares) {
-  const bool strong = radiance_[lamp] > kStrong;
+  const bool strong = radiance_[lamp] > care_.strong;
   for (const std::size_t stride : strides(strong)) {
     const auto cell = shares.cell(x, y, stride);
     if (!shares.same_face_around(cell, patch.look)) continue;
@@ -275,7 +311,7 @@ double LivePainter::still_light(const Tile& tile, int x, int y) {
   for (const std::size_t i : lamps) {
     const double direct =
         levels_.at(y, i) * static_cast<double>(stage_.backdrop.direct[i].at(x, y));
-    if (direct > std::max(kUnseen, kFaintOnStill * light))
+    if (direct > std::max(care_.unseen, care_.faint_on_still * light))
       light -= direct * (1.0 - share_of_still(here, i, direct, x, y));
   }
   return light;
@@ -283,7 +319,7 @@ double LivePainter::still_light(const Tile& tile, int x, int y) {
 
 double LivePainter::share_of_still(const Look& here, std::size_t lamp, double direct, int x,
                                    int y) {
-  const bool strong = direct > kStrong;
+  const bool strong = direct > care_.strong;
   for (const std::size_t stride : strides(strong)) {
     const auto cell = still_shares_.cell(x, y, stride);
     const auto at = shares_at(cell, lamp, strong);

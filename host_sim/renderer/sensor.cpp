@@ -33,44 +33,72 @@ void take_up(float well, float& charge, float& spilt) {
   spilt -= taken;
 }
 
+// Normal deviates of row y, four to a word.
+void draw_noise(std::uint64_t key, int y, std::vector<float>& deviates) {
+  const NormalDeviates& normal = normal_deviates();
+  const std::size_t words = deviates.size() / 4;
+  const std::uint64_t first = static_cast<std::uint64_t>(y) * words;
+  float* out = deviates.data();
+  for (std::size_t i = 0; i < words; ++i, out += 4) {
+    const std::uint64_t word = mix(key + (first + i) * 0x9E3779B97F4A7C15ULL);
+    out[0] = normal[word & 0xFFFFU];
+    out[1] = normal[(word >> 16U) & 0xFFFFU];
+    out[2] = normal[(word >> 32U) & 0xFFFFU];
+    out[3] = normal[word >> 48U];
+  }
+}
+
+void read_row(const SensorModel& model, double gain, int width, const float* charge,
+              const float* deviate, std::uint8_t* grey) {
+  const auto black = static_cast<float>(model.black_level_dn) + 0.5F;  // rounds what follows
+  const auto g = static_cast<float>(gain);
+  const auto read2 = static_cast<float>(model.read_noise_dn * model.read_noise_dn);
+  const auto shot = static_cast<float>(1.0 / model.electrons_per_dn);
+  for (int x = 0; x < width; ++x) {
+    const float sigma = std::sqrt(read2 + shot * charge[x]);
+    const float dn = black + g * (charge[x] + sigma * deviate[x]);
+    grey[x] = static_cast<std::uint8_t>(static_cast<int>(std::min(std::max(dn, 0.0F), 255.0F)));
+  }
+}
+
 }  // namespace
 
 Sensor::Sensor(const SensorModel& model, int width_px, int height_px)
     : model_(model),
       falloff_(falloff_of(model.corner_falloff, width_px, height_px)),
-      charge_dn_(width_px, height_px),
       spilt_dn_(static_cast<std::size_t>(width_px)),
-      upwards_dn_(width_px, height_px),
-      deviates_(static_cast<std::size_t>(width_px) + 3) {}
+      upwards_dn_(width_px, height_px) {}
 
-// Whether some pixel holds more than it can.
-bool Sensor::collect(const FloatImage& light, const Exposure& exposure) {
+void Sensor::collect(const FloatImage& light, const Exposure& exposure, FloatImage& charge_dn) {
   const auto factor = static_cast<float>(255.0 * model_.sensitivity * exposure.opening *
                                          (exposure.duration_s / kReferenceExposure_s));
   const auto well = static_cast<float>(model_.full_well_dn);
+  if (charge_dn.width_px() != light.width_px() || charge_dn.height_px() != light.height_px()) {
+    charge_dn = FloatImage(light.width_px(), light.height_px());
+  }
   int over = 0;
-  for (int y = 0; y < charge_dn_.height_px(); ++y) {
+  for (int y = 0; y < charge_dn.height_px(); ++y) {
     const float* in = &light.at(0, y);
     const float* share = &falloff_.at(0, y);
-    float* charge = &charge_dn_.at(0, y);
-    for (int x = 0; x < charge_dn_.width_px(); ++x) {
+    float* charge = &charge_dn.at(0, y);
+    for (int x = 0; x < charge_dn.width_px(); ++x) {
       charge[x] = factor * share[x] * in[x];
       over |= charge[x] > well ? 1 : 0;
     }
   }
-  return over != 0;
+  if (over != 0) bloom(charge_dn);
 }
 
 // All columns at once, row by row: first down, where most goes, then up.
-void Sensor::bloom() {
+void Sensor::bloom(FloatImage& charge_dn) {
   const auto well = static_cast<float>(model_.full_well_dn);
   const auto share = static_cast<float>(model_.bloom_share);
-  const int width = charge_dn_.width_px();
-  const int height = charge_dn_.height_px();
+  const int width = charge_dn.width_px();
+  const int height = charge_dn.height_px();
   float* spilt = spilt_dn_.data();
   std::fill_n(spilt, width, 0.0F);
   for (int y = 0; y < height; ++y) {
-    float* charge = &charge_dn_.at(0, y);
+    float* charge = &charge_dn.at(0, y);
     float* up = &upwards_dn_.at(0, y);
     for (int x = 0; x < width; ++x) {
       const float excess = share * std::max(0.0F, charge[x] - well);
@@ -82,7 +110,7 @@ void Sensor::bloom() {
   }
   std::fill_n(spilt, width, 0.0F);
   for (int y = height - 1; y >= 0; --y) {
-    float* charge = &charge_dn_.at(0, y);
+    float* charge = &charge_dn.at(0, y);
     const float* up = &upwards_dn_.at(0, y);
     for (int x = 0; x < width; ++x) {
       take_up(well, charge[x], spilt[x]);
@@ -91,42 +119,16 @@ void Sensor::bloom() {
   }
 }
 
-// Normal deviates of row y, four to a word.
-void Sensor::draw_noise(std::uint64_t key, int y) {
-  const NormalDeviates& normal = normal_deviates();
-  const std::size_t words = deviates_.size() / 4;
-  const std::uint64_t first = static_cast<std::uint64_t>(y) * words;
-  float* out = deviates_.data();
-  for (std::size_t i = 0; i < words; ++i, out += 4) {
-    const std::uint64_t word = mix(key + (first + i) * 0x9E3779B97F4A7C15ULL);
-    out[0] = normal[word & 0xFFFFU];
-    out[1] = normal[(word >> 16U) & 0xFFFFU];
-    out[2] = normal[(word >> 32U) & 0xFFFFU];
-    out[3] = normal[word >> 48U];
-  }
-}
-
-void Sensor::read_row(int y, double gain, std::uint8_t* grey) const {
-  const auto black = static_cast<float>(model_.black_level_dn) + 0.5F;  // rounds what follows
-  const auto g = static_cast<float>(gain);
-  const auto read2 = static_cast<float>(model_.read_noise_dn * model_.read_noise_dn);
-  const auto shot = static_cast<float>(1.0 / model_.electrons_per_dn);
-  const float* charge = &charge_dn_.at(0, y);
-  const float* deviate = deviates_.data();
-  for (int x = 0; x < charge_dn_.width_px(); ++x) {
-    const float sigma = std::sqrt(read2 + shot * charge[x]);
-    const float dn = black + g * (charge[x] + sigma * deviate[x]);
-    grey[x] = static_cast<std::uint8_t>(static_cast<int>(std::min(std::max(dn, 0.0F), 255.0F)));
-  }
-}
-
-void Sensor::expose(const FloatImage& light, const Exposure& exposure, GreyImage& image) {
-  if (collect(light, exposure)) bloom();
+void Sensor::read(const FloatImage& charge_dn, const Exposure& exposure, GreyImage& image) const {
+  const int width = charge_dn.width_px();
+  const int height = charge_dn.height_px();
+  if (image.width_px() != width || image.height_px() != height) image = GreyImage(width, height);
   const NoiseKey& noise = exposure.noise;
   const std::uint64_t key = mix(mix(noise.seed, noise.camera), noise.tick);
-  for (int y = 0; y < image.height_px(); ++y) {
-    if (model_.noise) draw_noise(key, y);
-    read_row(y, exposure.gain, &image.at(0, y));
+  std::vector<float> deviates(static_cast<std::size_t>(width) + 3);  // zero without noise
+  for (int y = 0; y < height; ++y) {
+    if (model_.noise) draw_noise(key, y, deviates);
+    read_row(model_, exposure.gain, width, &charge_dn.at(0, y), deviates.data(), &image.at(0, y));
   }
 }
 

@@ -54,21 +54,25 @@ class Sensor {
   Sensor(const SensorModel& model, int width_px, int height_px);
 
   const SensorModel& model() const { return model_; }
+  // What the pixels hold when the shutter closes, above black at unit gain, bloomed, without noise.
   // `light`: blurred radiance. One thread at a time.
-  void expose(const FloatImage& light, const Exposure& exposure, GreyImage& image);
+  void collect(const FloatImage& light, const Exposure& exposure, FloatImage& charge_dn);
+  // That read out, with the exposure's gain and noise.
+  void read(const FloatImage& charge_dn, const Exposure& exposure, GreyImage& image) const;
+  // Both, one after the other.
+  void expose(const FloatImage& light, const Exposure& exposure, GreyImage& image) {
+    collect(light, exposure, charge_dn_);
+    read(charge_dn_, exposure, image);
+  }
 
  private:
-  bool collect(const FloatImage& light, const Exposure& exposure);
-  void bloom();
-  void draw_noise(std::uint64_t key, int y);
-  void read_row(int y, double gain, std::uint8_t* grey) const;
+  void bloom(FloatImage& charge_dn);
 
   SensorModel model_;
   FloatImage falloff_;           // 1 in the middle of the picture
-  FloatImage charge_dn_;         // at unit gain, above black
   std::vector<float> spilt_dn_;  // on its way along each column
   FloatImage upwards_dn_;        // what each pixel spills upwards
-  std::vector<float> deviates_;  // of one row; zero without noise
+  FloatImage charge_dn_;
 };
 
 }  // namespace dottrack::host_sim

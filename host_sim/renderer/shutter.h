@@ -24,6 +24,8 @@ class Levels {
   double at(int row, std::size_t lamp) const {
     return by_row_[by_row_.size() == 1 ? 0 : static_cast<std::size_t>(row)][lamp];
   }
+  // The same in all rows.
+  bool steady() const { return by_row_.size() == 1; }
   bool operator==(const Levels&) const = default;
 
  private:

@@ -25,28 +25,24 @@ inline Eigen::Vector2d spread_look(unsigned i, unsigned n) {
 template <class Cast, class OnMark>
 class TileSampler {
  public:
+  // every_pixel false: blocks of 4 x 4 and 2 x 2 pixels whose corners and middle show one face are
+  // filled in from these, at a small part of the cost; what is narrower may be missed.
   TileSampler(const RayLattice& rays, const PixelBox& tile, const MarkCovers& marks,
-              unsigned edge_looks, const Cast& cast, const OnMark& on_mark)
+              unsigned edge_looks, const Cast& cast, const OnMark& on_mark, bool every_pixel = true)
       : rays_(rays),
         tile_(tile),
         marks_(marks),
         edge_looks_(edge_looks),
+        mark_looks_(every_pixel ? kFineLooks : kQuickLooks),
         cast_(cast),
         on_mark_(on_mark),
         corners_(tile.x1 - tile.x0 + 1, tile.y1 - tile.y0 + 1),
         centres_(tile.x1 - tile.x0, tile.y1 - tile.y0) {
-    for (int y = tile.y0; y <= tile.y1; ++y) {
-      for (int x = tile.x0; x <= tile.x1; ++x) {
-        const Sight sight = rays.corner(x, y);
-        if (sight.direction.isZero(0.0)) continue;
-        corners_.at(x - tile.x0, y - tile.y0) =
-            cast(sight, x < tile.x1 ? x : x - 1, y < tile.y1 ? y : y - 1);
-      }
-    }
-    for (int y = tile.y0; y < tile.y1; ++y) {
-      for (int x = tile.x0; x < tile.x1; ++x) {
-        if (rays.seen(x, y)) centre(x, y) = cast(rays.inside(x, y, 0.5, 0.5), x, y);
-      }
+    const bool in_blocks = (tile.x1 - tile.x0) % 2 == 0 && (tile.y1 - tile.y0) % 2 == 0;
+    if (every_pixel || !in_blocks) {
+      look_everywhere();
+    } else {
+      look_by_blocks();
     }
   }
 
@@ -73,9 +69,113 @@ class TileSampler {
   }
 
  private:
-  static constexpr unsigned kFineGrid = 16;  // 16 x 16 looks
+  // Looks in a pixel that an edge crosses and that has marks: 16 x 16 or 8 x 8.
+  static constexpr unsigned kFineLooks = 256;
+  static constexpr unsigned kQuickLooks = 64;
 
   Look& centre(int x, int y) { return centres_.at(x - tile_.x0, y - tile_.y0); }
+  Look& corner(int x, int y) { return corners_.at(x - tile_.x0, y - tile_.y0); }
+
+  void look_at_corner(int x, int y) {
+    const Sight sight = rays_.corner(x, y);
+    if (sight.direction.isZero(0.0)) return;
+    corner(x, y) = cast_(sight, x < tile_.x1 ? x : x - 1, y < tile_.y1 ? y : y - 1);
+  }
+
+  void look_at_centre(int x, int y) {
+    if (rays_.seen(x, y)) centre(x, y) = cast_(rays_.inside(x, y, 0.5, 0.5), x, y);
+  }
+
+  void look_everywhere() {
+    for (int y = tile_.y0; y <= tile_.y1; ++y) {
+      for (int x = tile_.x0; x <= tile_.x1; ++x) look_at_corner(x, y);
+    }
+    for (int y = tile_.y0; y < tile_.y1; ++y) {
+      for (int x = tile_.x0; x < tile_.x1; ++x) look_at_centre(x, y);
+    }
+  }
+
+  // Blocks of 4 x 4 pixels first, where one face fills them; then those of 2 x 2 in the others.
+  void look_by_blocks() {
+    const auto lattice = [&](int step, int first_x, int first_y) {
+      for (int y = tile_.y0 + first_y; y <= tile_.y1; y += step) {
+        for (int x = tile_.x0 + first_x; x <= tile_.x1; x += step) look_at_corner(x, y);
+      }
+    };
+    lattice(4, 0, 0);
+    lattice(4, 2, 2);
+    for (int y = tile_.y0; y < tile_.y1; y += 4) {
+      for (int x = tile_.x0; x < tile_.x1; x += 4) fill_large_block(x, y);
+    }
+  }
+
+  // Bare space is not taken on trust: a thin thing may stand in it.
+  void fill_large_block(int x, int y) {
+    const bool full = x + 4 <= tile_.x1 && y + 4 <= tile_.y1;
+    const bool one_face =
+        full && corner(x + 2, y + 2).thing != kNothing && one_face_around(x, y, 4);
+    for (const int dy : {0, 4})
+      set_if_inside(x + 2, y + dy, one_face, {x, y + dy}, {x + 4, y + dy});
+    for (const int dx : {0, 4})
+      set_if_inside(x + dx, y + 2, one_face, {x + dx, y}, {x + dx, y + 4});
+    for (int dy = 0; dy < 4 && y + dy < tile_.y1; dy += 2) {
+      for (int dx = 0; dx < 4 && x + dx < tile_.x1; dx += 2) {
+        Look& middle = corner(x + dx + 1, y + dy + 1);
+        if (one_face) {
+          middle = between(corner(x + 2, y + 2), corner(x + 2 * dx, y + 2 * dy));
+        } else {
+          look_at_corner(x + dx + 1, y + dy + 1);
+        }
+        fill_block(x + dx, y + dy);
+      }
+    }
+  }
+
+  struct At {
+    int x;
+    int y;
+  };
+  void set_if_inside(int x, int y, bool one_face, At a, At b) {
+    if (x <= tile_.x1 && y <= tile_.y1) set(x, y, one_face, a, b);
+  }
+
+  bool one_face_around(int x, int y, int size) const {
+    const Look& middle = corner(x + size / 2, y + size / 2);
+    return same_face(middle, corner(x, y)) && same_face(middle, corner(x + size, y)) &&
+           same_face(middle, corner(x, y + size)) && same_face(middle, corner(x + size, y + size));
+  }
+
+  void fill_block(int x, int y) {
+    const bool one_face = one_face_around(x, y, 2);
+    for (const int dy : {0, 2}) set(x + 1, y + dy, one_face, {x, y + dy}, {x + 2, y + dy});
+    for (const int dx : {0, 2}) set(x + dx, y + 1, one_face, {x + dx, y}, {x + dx, y + 2});
+    for (int dy = 0; dy < 2; ++dy) {
+      for (int dx = 0; dx < 2; ++dx) {
+        if (one_face) {
+          centre(x + dx, y + dy) = between(corner(x + 1, y + 1), corner(x + 2 * dx, y + 2 * dy));
+        } else {
+          look_at_centre(x + dx, y + dy);
+        }
+      }
+    }
+  }
+
+  // The corner at the middle of a block's side. A block that is not of one face looks for itself
+  // and has the last word where its neighbour has only guessed.
+  void set(int x, int y, bool one_face, At a, At b) {
+    Look& here = corner(x, y);
+    if (!one_face) {
+      look_at_corner(x, y);
+    } else if (here.thing == kNothing) {
+      here = between(corner(a.x, a.y), corner(b.x, b.y));
+    }
+  }
+
+  static Look between(const Look& a, const Look& b) {
+    if (a.thing == kNothing) return {};
+    return {a.thing, 0.5 * (a.distance + b.distance), 0.5 * (a.point + b.point),
+            (a.normal + b.normal).normalized()};
+  }
 
   // All of the pixel is one face: the marks on it by their exact shares.
   void paint(const Look& face, int x, int y, Patches& patches) const {
@@ -93,7 +193,7 @@ class TileSampler {
   template <class Each>
   void divide(int x, int y, Patches& patches, const Each& each) const {
     const auto marks = marks_.at(x, y);
-    const unsigned looks = marks.empty() ? edge_looks_ : kFineGrid * kFineGrid;
+    const unsigned looks = marks.empty() ? edge_looks_ : mark_looks_;
     for (unsigned i = 0; i < looks; ++i) {
       const Eigen::Vector2d at = spread_look(i, looks);
       const Look look = cast_(rays_.inside(x, y, at.x(), at.y()), x, y);
@@ -133,6 +233,7 @@ class TileSampler {
   PixelBox tile_;
   const MarkCovers& marks_;
   unsigned edge_looks_;
+  unsigned mark_looks_;
   const Cast& cast_;
   const OnMark& on_mark_;
   ImageBuffer<Look> corners_;

@@ -1,7 +1,6 @@
 #include "host_sim/scenarios/placements.h"
 
 #include <algorithm>
-#include <cassert>
 
 #include "host_sim/world/look_alikes.h"
 #include "host_sim/world/meshes.h"
@@ -112,13 +111,15 @@ void set_random_light(RandomStream& random, Placement& placement) {
 
 Placement random_placement(const Scene& base, const RayScene& hall, std::uint64_t seed,
                            std::uint64_t index) {
-  assert(base.vehicle);
   RandomStream random(mix(seed, 0x91ACE), index);
   Placement placement;
   const Vector2d place = free_place(base, hall, random);
-  placement.vehicle = placed_on(base.terrain, place, any_heading(random));
-  placement.bodies.push_back(
-      {"vehicle", base.world.bodies[*base.vehicle].model, stand_at(placement.vehicle)});
+  const Pose standing = placed_on(base.terrain, place, any_heading(random));
+  if (base.vehicle) {
+    placement.vehicle = standing;
+    placement.bodies.push_back(
+        {"vehicle", base.world.bodies[*base.vehicle].model, stand_at(standing)});
+  }
   Surroundings around(base, place, random);
   around.add_up_to(6, "look-alike", placement.bodies,
                    [](RandomStream& r) { return make_look_alike(r.word()); });

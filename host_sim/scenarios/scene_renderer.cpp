@@ -30,4 +30,23 @@ void SceneRenderer::render(std::span<const Exposure> exposures, std::span<const 
                  [&](std::size_t i) { views_[i]->render(exposures[i], bodies, light, images[i]); });
 }
 
+void SceneRenderer::collect(std::span<Shot> shots, Detail detail) {
+  for (Shot& shot : shots) {
+    assert(shot.exposures.size() == views_.size());
+    shot.charges_dn.resize(views_.size());
+  }
+  for_each_index(views_.size(), threads_, [&](std::size_t i) {
+    for (Shot& shot : shots) {
+      views_[i]->collect(shot.exposures[i], shot.bodies, shot.light, detail, shot.charges_dn[i]);
+    }
+  });
+}
+
+void SceneRenderer::read(const Shot& shot, std::size_t camera, const NoiseKey& noise,
+                         GreyImage& image) const {
+  Exposure exposure = shot.exposures[camera];
+  exposure.noise = noise;
+  views_[camera]->read(shot.charges_dn[camera], exposure, image);
+}
+
 }  // namespace dottrack::host_sim

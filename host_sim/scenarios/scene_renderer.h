@@ -12,7 +12,8 @@
 namespace dottrack::host_sim {
 
 // The bytes depend on the scene and the exposures alone, never on the number of threads. What a
-// thread throws is thrown again by the call. Not for two threads at once.
+// thread throws is thrown again by the call. Not for two threads at once,
+// where nothing else is said.
 class SceneRenderer {
  public:
   // Renders the hall without its bodies: seconds. `scene` must outlive this and stay as it is.
@@ -26,7 +27,23 @@ class SceneRenderer {
   void render(std::span<const Exposure> exposures, std::span<const MovingBody> bodies,
               const LightPlan& light, std::vector<GreyImage>& images);
 
+  // One picture of all cameras, before it is read out.
+  struct Shot {
+    std::vector<Exposure> exposures;  // one a camera
+    std::span<const MovingBody> bodies;
+    LightPlan light;
+    std::vector<FloatImage> charges_dn;  // one a camera: what its pixels hold (sensor.h)
+  };
+
+  // Fills in what the pixels of every shot hold: camera by camera, which keeps threads busy.
+  void collect(std::span<Shot> shots, Detail detail);
+
+  // Reads out one camera of a shot, with the noise of the shot's exposure or of another. Any number
+  // of threads may read.
+  void read(const Shot& shot, std::size_t camera, const NoiseKey& noise, GreyImage& image) const;
+
   const Hall& hall() const { return hall_; }
+  unsigned threads() const { return threads_; }
   // The scene's own, in its order.
   std::span<const MovingBody> bodies() const { return bodies_.moving(); }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/workstation/sim_run.h"
+#include "app/workstation/trial_summary.h"
 #include "app/workstation/trials.h"
 #include "host_sim/scenarios/scenario_file.h"
 #include "host_sim/scenarios/scene_renderer.h"

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/workstation/sim_run.h"
+#include "app/workstation/trial_summary.h"
 #include "app/workstation/trials.h"
 #include "host_sim/scenarios/scenario_file.h"
 #include "tests/support/temporary_folder.h"
@@ -87,7 +88,8 @@ TEST(RandomPlacements, AreFoundAndNeverTakenForAnother) {
   const test::TemporaryFolder folder;
   const host_sim::Scene scene = load("drive", 1);
   host_sim::SceneRenderer renderer(scene);
-  const auto run = run_trials(scene, renderer, {folder.path() / "out", 12, {}});
+  const auto run =
+      run_trials(scene, renderer, {.out = folder.path() / "out", .count = 12, .go_on = {}});
   ASSERT_TRUE(run) << run.error().message;
   const TrialSummary able = summary_of(run->trials, true);
   EXPECT_EQ(able.wrong + summary_of(run->trials, false).wrong, 0U);

@@ -119,11 +119,43 @@ TEST_F(SimCommand, RandomPlacementsAreCountedByWhatCouldBeSeen) {
   EXPECT_THAT(run.out, HasSubstr("acquisitions a second"));
   const auto lines = lines_of(at("out/acquisitions.csv"));
   ASSERT_EQ(lines.size(), 5U);
-  EXPECT_EQ(lines[0],
-            "index,x_m,y_m,yaw_deg,dots,dots_in_two_views,outcome,reason,position_mm,attitude_deg");
+  EXPECT_THAT(lines[0], testing::StartsWith("index,x_m,y_m,yaw_deg,dots,dots_in_two_views,"
+                                            "lockable,outcome,reason,lock_tick,"));
   for (std::size_t i = 1; i < lines.size(); ++i) {
-    EXPECT_EQ(split(lines[i], ',').size(), 10U) << lines[i];
-    EXPECT_NE(split(lines[i], ',')[6], "wrong") << lines[i];
+    EXPECT_EQ(split(lines[i], ',').size(), split(lines[0], ',').size()) << lines[i];
+    EXPECT_NE(split(lines[i], ',')[7], "wrong") << lines[i];
+  }
+  EXPECT_GT(lines_of(at("out/calibration.csv")).size(), 10U);
+}
+
+TEST_F(SimCommand, PlacementsInPiecesAreThoseOfOneRun) {
+  const std::string file = scenario();
+  const auto lines = [&](const std::string& out, const std::string& first, const std::string& count,
+                         const std::string& threads) {
+    run_sim({file, "--out", at(out).string(), "--first", first, "--acquisitions", count,
+             "--threads", threads});
+    auto all = lines_of(at(out) / "acquisitions.csv");
+    all.erase(all.begin());
+    return all;
+  };
+  auto pieces = lines("a", "0", "1", "3");
+  for (const std::string& line : lines("b", "1", "9", "1")) pieces.push_back(line);
+  EXPECT_EQ(pieces.size(), 10U);
+  EXPECT_EQ(pieces, lines("all", "0", "10", "2"));
+}
+
+TEST_F(SimCommand, PlacementsWithoutAVehicleAreNeverLockedOnTo) {
+  std::string text = small_scenario("[vehicle]\nkind = \"none\"\ndots = 4\n");
+  text.erase(text.find("[motion]"), text.find("[vehicle]") - text.find("[motion]"));
+  const std::string file = folder_.write("none.toml", text).string();
+  const ProgramRun run =
+      run_sim({file, "--out", at("out").string(), "--acquisitions", "6", "--trial-ticks", "2"});
+  EXPECT_EQ(run.status, 0) << run.out << run.err;
+  const auto lines = lines_of(at("out/acquisitions.csv"));
+  ASSERT_EQ(lines.size(), 7U);
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    EXPECT_EQ(split(lines[i], ',')[6], "0") << lines[i];
+    EXPECT_THAT(split(lines[i], ',')[7], testing::AnyOf("none", "held_back")) << lines[i];
   }
 }
 

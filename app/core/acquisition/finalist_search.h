@@ -13,8 +13,10 @@
 namespace dottrack::acquisition {
 
 // Lazy: a finalist seen by k cameras shows in any two of them, so finalists of many views are found
-// from few of the pairs of cameras, and most of the pairs are never looked at. Memory is taken at
-// construction.
+// from few of the pairs of cameras, and most of the pairs are never looked at. While more than two
+// views are asked for, lines of sight that pass each other by more than kSureResidual_px in either
+// image are left aside, too: a dot whose views disagree that much may have to wait for the search
+// for two. Memory is taken at construction.
 class FinalistSearch {
  public:
   FinalistSearch();

@@ -25,7 +25,7 @@ struct AtLeast {
 
   template <class D, class V = hn::Vec<D>>
   HWY_INLINE hn::Mask<D> operator()(D d, V v) const {
-    return hn::Eq(hn::Max(v, hn::Set(d, lo)), v);
+    return hn::Eq(hn::SaturatedSub(hn::Set(d, lo), v), hn::Zero(d));
   }
 };
 

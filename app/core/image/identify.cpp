@@ -7,8 +7,9 @@
 #include "app/core/image/bitmap.h"
 #include "app/core/image/components.h"
 #include "app/core/image/gates.h"
+#include "app/core/image/judge.h"
 #include "app/core/image/local_background.h"
-#include "app/core/image/region_moments.h"
+#include "app/core/image/moments.h"
 #include "app/core/image/region_sums.h"
 #include "app/core/image/run_scan.h"
 
@@ -60,8 +61,6 @@ struct Identifier::Memory {
   void take_rows(int y_end);
   IdentifyCounts pick_regions(const Search& search, const RegionGate& gate, Regions& regions);
   std::size_t next_batch(const SizeBounds& bounds, std::size_t& next, IdentifyCounts& counts);
-  void judge(const Search& search, const RegionGate& gate, std::size_t i, Regions& regions,
-             IdentifyCounts& counts);
 
   Bitmap bitmap;
   LocalBackground background;
@@ -118,34 +117,6 @@ std::size_t Identifier::Memory::next_batch(const SizeBounds& bounds, std::size_t
   return count;
 }
 
-// The i-th of the batch, if it passes the gates.
-void Identifier::Memory::judge(const Search& search, const RegionGate& gate, std::size_t i,
-                               Regions& regions, IdentifyCounts& counts) {
-  const Component& component = components[batch[i]];
-  if (!passes_size(gate, component.area_px, moments, i)) {
-    ++counts.rejected_size;
-    return;
-  }
-  const Eigen::Vector2d centroid_px(search.window.x_min + component.x_min + moments.x[i],
-                                    search.window.y_min + component.y_min + moments.y[i]);
-  const double contrast_dn =
-      core_contrast(search.image, centroid_px, batch_sums[i].faintest_dn, search.band.polarity);
-  if (!passes_shape(gate, moments, i) || contrast_dn < gate.min_core_contrast_dn) {
-    ++counts.rejected_shape;
-    return;
-  }
-  if (regions.size() == regions.capacity()) {
-    ++counts.overflow_regions;
-    return;
-  }
-  Region& region = regions.emplace_back();
-  set_region(search.window, component, moments, i, region);
-  region.centroid_px = centroid_px;
-  region.core_contrast_dn = contrast_dn;
-  region.saturated_px = static_cast<int>(batch_sums[i].saturated_px);
-  ++counts.accepted;
-}
-
 IdentifyCounts Identifier::Memory::pick_regions(const Search& search, const RegionGate& gate,
                                                 Regions& regions) {
   const ImageView pixels = search.pixels();
@@ -161,7 +132,14 @@ IdentifyCounts Identifier::Memory::pick_regions(const Search& search, const Regi
     sum_regions({pixels, weights.values, polarity, runs, components}, {batch.data(), count},
                 batch_sums.data());
     measure({batch_sums.data(), count}, weights, moments);
-    for (std::size_t i = 0; i < count; ++i) judge(search, gate, i, regions, counts);
+    judge({search.image,
+           search.window,
+           polarity,
+           components,
+           {batch.data(), count},
+           {batch_sums.data(), count},
+           moments},
+          gate, regions, counts);
   }
   return counts;
 }

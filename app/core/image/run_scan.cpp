@@ -18,15 +18,14 @@ namespace HWY_NAMESPACE {
 // branch: more in one word are rare, and whether there are none, one or two cannot be predicted.
 template <PixelKey Run::*kEnd>
 HWY_INLINE std::size_t write_positions(std::uint64_t bits, PixelKey key, Run* runs) {
-  constexpr std::uint64_t kNotZero = std::uint64_t{1} << 63U;
   const std::uint64_t second = bits & (bits - 1);
-  runs[0].*kEnd = key + std::countr_zero(bits | kNotZero);
-  runs[1].*kEnd = key + std::countr_zero(second | kNotZero);
-  std::size_t count = static_cast<std::size_t>(bits != 0) + static_cast<std::size_t>(second != 0);
-  for (std::uint64_t rest = second & (second - 1); rest != 0; rest &= rest - 1) {
-    runs[count++].*kEnd = key + std::countr_zero(rest);
+  runs[0].*kEnd = key + std::countr_zero(bits);
+  runs[1].*kEnd = key + std::countr_zero(second);
+  std::uint64_t rest = second & (second - 1);
+  for (Run* run = runs + 2; rest != 0; rest &= rest - 1) {
+    (run++)->*kEnd = key + std::countr_zero(rest);
   }
-  return count;
+  return static_cast<std::size_t>(std::popcount(bits));
 }
 
 // A run begins (ends) at a set pixel whose left (right) neighbour is clear, unless no neighbour at

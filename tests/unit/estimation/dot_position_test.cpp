@@ -79,5 +79,47 @@ TEST_F(DotPositionTest, OneViewIsNoPosition) {
   EXPECT_FALSE(locate_dot(see(1, 0.0), position));
 }
 
+// Drops one view at a time until each sees the dot inside its box: by the camera's own projection.
+bool locate_plainly(Views views, geometry::Triangulation& result) {
+  for (;;) {
+    StaticVector<geometry::SightLine, kMaxCameras> lines;
+    for (const View& view : views) lines.push_back(view.sighting->line);
+    if (geometry::triangulate(as_span(lines), result) != geometry::TriangulationStatus::ok) {
+      return false;
+    }
+    double worst = 0.0;
+    std::size_t odd = views.size();
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const Sighting& s = *views[i].sighting;
+      Eigen::Vector2d pixel;
+      geometry::project(views[i].model->model, result.point_m, pixel);
+      const double excess = (pixel - s.pixel).norm() / (s.box_max_px - s.box_min_px).norm();
+      if (s.box_contains(pixel) || excess <= worst) continue;
+      worst = excess;
+      odd = i;
+    }
+    if (odd == views.size()) return true;
+    views.erase(views.begin() + static_cast<std::ptrdiff_t>(odd));
+  }
+}
+
+TEST_F(DotPositionTest, NoViewIsKeptThatTheDotDoesNotProjectInto) {
+  std::uniform_real_distribution<double> odd(-15.0, 15.0);
+  int dropped = 0;
+  constexpr int kTrials = 1000;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const Views views = see(3, 0.5, 1, odd(random_));
+    geometry::Triangulation expected;
+    DotPosition position;
+    const bool found = locate_plainly(views, expected);
+    ASSERT_EQ(locate_dot(views, position), found);
+    if (!found) continue;
+    EXPECT_EQ(position.position_m, expected.point_m);
+    dropped += position.cameras.size() < 3 ? 1 : 0;
+  }
+  EXPECT_GT(dropped, kTrials / 10);
+  EXPECT_LT(dropped, kTrials * 9 / 10);
+}
+
 }  // namespace
 }  // namespace dottrack::estimation

@@ -65,6 +65,20 @@ TEST(Dottrackd, CheckNamesEveryDeviceThatIsMissing) {
   EXPECT_THAT(outcome.text, HasSubstr("camera cam-2_b: no camera \"/base/i2c/imx296@1\" here"));
 }
 
+TEST(Dottrackd, CheckWarnsOfATargetThatLooksLikeItself) {
+  const test::RigFolder folder;
+  folder.write("target.csv",
+               "dot,x_m,y_m,z_m,diameter_m\n"
+               "1,0.3,0.3,0,0.05\n2,-0.3,0.3,0,0.05\n3,-0.3,-0.3,0,0.05\n4,0.3,-0.3,0,0.05\n");
+  const std::string refused = run("--check --config " + folder.rig().string()).text;
+  EXPECT_THAT(refused, HasSubstr("error: "));
+  EXPECT_THAT(refused, HasSubstr("the target looks like itself"));
+  folder.write("rig.toml",
+               test::replaced(test::kGoodRig, "max_step_m", "allow_ambiguous = true\nmax_step_m"));
+  EXPECT_THAT(run("--check --config " + folder.rig().string()).text,
+              HasSubstr("dottrackd: warning: " + (folder.path() / "target.csv:2: ").string()));
+}
+
 TEST(Dottrackd, ARigWithoutDevicesDoesNotStart) {
   const test::RigFolder folder;
   folder.write("rig.toml", std::string(test::kGoodRig) + "[can]\ninterface = \"nocan9\"\n");

@@ -22,10 +22,10 @@ class Placements : public testing::Test {
 };
 
 TEST_F(Placements, AreAFunctionOfSeedAndIndex) {
-  EXPECT_EQ(placement(3).vehicle.position_m, placement(3).vehicle.position_m);
+  EXPECT_EQ(placement(3).vehicle->position_m, placement(3).vehicle->position_m);
   EXPECT_EQ(placement(3).bodies.size(), placement(3).bodies.size());
-  EXPECT_NE(placement(3).vehicle.position_m, placement(4).vehicle.position_m);
-  EXPECT_NE(placement(3).vehicle.position_m, placement(3, 2).vehicle.position_m);
+  EXPECT_NE(placement(3).vehicle->position_m, placement(4).vehicle->position_m);
+  EXPECT_NE(placement(3).vehicle->position_m, placement(3, 2).vehicle->position_m);
 }
 
 TEST_F(Placements, AreAllOverTheSandboxInAllHeadings) {
@@ -35,14 +35,14 @@ TEST_F(Placements, AreAllOverTheSandboxInAllHeadings) {
   bool no_sun = false;
   for (std::uint64_t i = 0; i < 200; ++i) {
     const Placement made = placement(i);
-    const Eigen::Vector3d& p = made.vehicle.position_m;
+    const Eigen::Vector3d& p = made.vehicle->position_m;
     ASSERT_LT(std::abs(p.x()), 11.0);
     ASSERT_LT(std::abs(p.y()), 4.5);
-    EXPECT_GT(made.vehicle.rotation(2, 2), 0.9) << "it stands";
+    EXPECT_GT(made.vehicle->rotation(2, 2), 0.9) << "it stands";
     cells.insert({static_cast<int>(p.x() + 11.0) / 4, static_cast<int>(p.y() + 4.5) / 3});
     octants.insert(static_cast<int>(
         4.0 *
-        (1.0 + std::atan2(made.vehicle.rotation(1, 0), made.vehicle.rotation(0, 0)) / 3.1416)));
+        (1.0 + std::atan2(made.vehicle->rotation(1, 0), made.vehicle->rotation(0, 0)) / 3.1416)));
     (made.light.level("sun", 0.0) > 0.0 ? sun : no_sun) = true;
     EXPECT_GE(made.light.level("fluorescent_east", 0.0), 0.5);
     EXPECT_GT(made.opening, 0.2);
@@ -61,13 +61,21 @@ TEST_F(Placements, MostHaveDotsInTwoViewsAndThingsAround) {
     const Placement made = placement(i);
     const BodyScenes bodies(made.bodies);
     const auto views =
-        views_of_dots(scene_.cameras, scene_.target, made.vehicle, hall_, bodies.moving(), 0.0);
+        views_of_dots(scene_.cameras, scene_.target, *made.vehicle, hall_, bodies.moving(), 0.0);
     if (dots_in_two_views(views) >= 3) ++lockable;
     things += made.bodies.size() - 1;
   }
   EXPECT_GE(lockable, 93);
   EXPECT_GT(things, 300U);
   EXPECT_LT(things, 900U);
+}
+
+TEST_F(Placements, WithoutAVehicleAreTheSameThingsAroundNothing) {
+  const Placement with = placement(3);
+  scene_.vehicle.reset();
+  const Placement without = placement(3);
+  EXPECT_FALSE(without.vehicle);
+  EXPECT_EQ(without.bodies.size() + 1, with.bodies.size());
 }
 
 TEST_F(Placements, ADotIsSeenUntilSomethingStandsBeforeIt) {

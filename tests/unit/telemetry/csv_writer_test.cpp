@@ -44,7 +44,7 @@ class CsvFile : public testing::Test {
 
 TEST_F(CsvFile, EveryColumnHasANameOfItsOwn) {
   EXPECT_EQ(std::set<std::string>(names_.begin(), names_.end()).size(), names_.size());
-  EXPECT_EQ(names_.size(), 8U + 8 + 21 + 3 * (5 + 2 * 3) + 2 * 6 + 12 + 7);
+  EXPECT_EQ(names_.size(), 9U + 8 + 21 + 3 * (5 + 2 * 3) + 2 * 10 + 15 + 7);
 }
 
 TEST_F(CsvFile, ATickWithAPoseHasItsNumbers) {
@@ -81,10 +81,18 @@ TEST_F(CsvFile, CamerasAndAcquisitionAreThere) {
   const Row row = this->row(1);
   EXPECT_EQ(row.at("left_delivered"), "1");
   EXPECT_EQ(row.at("left_regions"), "7");
-  EXPECT_EQ(row.at("left_components"), "9");
+  EXPECT_EQ(row.at("left_components"), "19");
+  EXPECT_EQ(row.at("left_rejected_size"), "8");
+  EXPECT_EQ(row.at("left_rejected_shape"), "4");
+  EXPECT_EQ(row.at("left_rejected_sight"), "2");
+  EXPECT_EQ(row.at("left_sightings"), "5");
   EXPECT_EQ(row.at("right_delivered"), "0");
   EXPECT_EQ(row.at("right_overflow"), "1");
   EXPECT_EQ(row.at("pairs_tested"), "1234");
+  EXPECT_EQ(row.at("acquisition_ticks"), "2");
+  EXPECT_EQ(row.at("min_views"), "3");
+  EXPECT_EQ(row.at("dots_matched"), "4");
+  EXPECT_EQ(row.at("relock"), "better_elsewhere");
   EXPECT_EQ(row.at("candidate_false_lock_probability"), "0.25");
   EXPECT_EQ(row.at("false_lock_probability"), "0.125");
 }
@@ -107,6 +115,7 @@ TEST_F(CsvFile, ATickWithoutAPoseHasItsReasonAndEmptyFields) {
   EXPECT_EQ(row.at("x_m"), "");
   EXPECT_EQ(row.at("cov_yaw_yaw"), "");
   EXPECT_EQ(row.at("pairs_tested"), "0");
+  EXPECT_EQ(row.at("relock"), "none");
 }
 
 }  // namespace

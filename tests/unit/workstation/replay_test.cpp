@@ -142,5 +142,20 @@ TEST_F(Replay, TheCsvHasAReasonForEveryTick) {
   EXPECT_THAT(column_of(out("run"), "state"), Each("tracking"));
 }
 
+// Of four cameras only one has images.
+TEST_F(Replay, ExplainsWhyThereIsNoLock) {
+  const test::TemporaryFolder lonely;
+  const std::string camera = DiscScene::camera_name(1);
+  fs::copy(folder_->path() / "frames" / camera, lonely.path() / camera);
+  const ReplayRun run =
+      run_replay({(folder_->path() / "rig.toml").string(), "--frames", lonely.path().string(),
+                  "--out", out("run").string(), "--explain"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.out, HasSubstr("tick 0: no pose: too_few_cameras, while acquiring\n"));
+  EXPECT_THAT(run.out, HasSubstr("no image\n"));
+  EXPECT_THAT(run.out, HasSubstr("ticks 1 to 5: the same\n"));
+  EXPECT_THAT(replay("whole", {"--explain"}).out, testing::Not(HasSubstr("no pose")));
+}
+
 }  // namespace
 }  // namespace dottrack::workstation

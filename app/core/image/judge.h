@@ -1,0 +1,30 @@
+#pragma once
+// Which measured components are dot candidates, and what they look like (paper section 3.3).
+
+#include <cstdint>
+#include <span>
+
+#include "app/core/image/components.h"
+#include "app/core/image/identify.h"
+#include "app/core/image/moments.h"
+#include "app/core/image/region_sums.h"
+#include "hal/base/image_view.h"
+
+namespace dottrack::image {
+
+// Components of a window of the image, with their sums and moments in the order of `which`.
+struct Candidates {
+  const ImageView& image;
+  const Window& window;
+  core::Polarity polarity;
+  const Components& components;
+  std::span<const std::uint32_t> which;
+  std::span<const RegionSums> sums;
+  const Moments& moments;
+};
+
+// Appends those that pass the gate to the regions, and counts where each went.
+void judge(const Candidates& candidates, const RegionGate& gate, Regions& regions,
+           IdentifyCounts& counts);
+
+}  // namespace dottrack::image
