@@ -116,12 +116,6 @@ int run_scene(const host_sim::Scene& scene, const SimCommand& command) {
   return sim->good(scene) ? kDone : kFailed;
 }
 
-// Never a wrong lock; and, where there is something to lock on to, a right one.
-bool good(const host_sim::Scene& scene, const std::vector<Trial>& trials) {
-  const TrialSummary able = summary_of(trials, true);
-  return able.wrong + summary_of(trials, false).wrong == 0 && (!scene.vehicle || able.right > 0);
-}
-
 int run_placements(const host_sim::Scene& scene, const SimCommand& command) {
   const Interrupt interrupt;
   host_sim::SceneRenderer renderer(scene, command.threads);
@@ -146,8 +140,9 @@ int run_placements(const host_sim::Scene& scene, const SimCommand& command) {
   fmt::print("{}", summary_text(run->trials));
   print_row("speed",
             fmt::format("{:.1f} acquisitions a second, rendering included", run->trials_per_s));
-  fmt::print("results: {} and calibration.csv\n", (command.out / "acquisitions.csv").string());
-  return good(scene, run->trials) ? kDone : kFailed;
+  fmt::print("results: {}, calibration.csv, report.json\n",
+             (command.out / "acquisitions.csv").string());
+  return good(run->trials) ? kDone : kFailed;
 }
 
 int run(const SimCommand& command) {

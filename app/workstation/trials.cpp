@@ -5,11 +5,13 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "app/config/rig_file.h"
 #include "app/core/tracker.h"
 #include "app/telemetry/output_file.h"
+#include "app/workstation/json_object.h"
 #include "app/workstation/loop_files.h"
 #include "app/workstation/rig_warnings.h"
 #include "app/workstation/trial_summary.h"
@@ -35,10 +37,6 @@ constexpr std::uint64_t kBatch = 8;
 // Of a second and later look at the same placement: other noise than any placement's first.
 std::uint64_t noise_of(std::uint64_t index, int tick) {
   return index + (static_cast<std::uint64_t>(tick) << 40U);
-}
-
-bool is_held_back(core::Reason reason) {
-  return reason == core::Reason::held_back || reason == core::Reason::ambiguous;
 }
 
 // A placement on its way from its index to its outcome.
@@ -76,7 +74,11 @@ class Trials {
         host_sim::random_placement(scene_, renderer_.hall().scene, scene_.seed, index);
     attempt.bodies = std::make_unique<host_sim::BodyScenes>(attempt.placement.bodies);
     Trial& trial = attempt.trial;
+    trial.scene = scene_.name;
+    std::replace(trial.scene.begin(), trial.scene.end(), ',', '_');  // it separates fields
+    trial.seed = scene_.seed;
     trial.index = index;
+    trial.ticks_allowed = options_.ticks;
     trial.dots = static_cast<int>(scene_.target.size());
     if (!attempt.placement.vehicle) return attempt;
     const host_sim::Pose& vehicle = *attempt.placement.vehicle;
@@ -103,12 +105,16 @@ class Trials {
     core::Tracker tracker(config_.rig);
     std::vector<GreyImage> images(scene_.cameras.size());
     Trial& trial = attempt.trial;
+    std::optional<TruePose> truth;
+    if (const auto& vehicle = attempt.placement.vehicle) {
+      truth = {vehicle->position_m, vehicle->orientation()};
+    }
     for (int tick = 0; tick < options_.ticks && !trial.locked(); ++tick) {
       const auto frames = frames_of(shot, trial.index, tick, images);
       const auto start = Watch::now();
       const core::TickResult& result = tracker.step(frames);
       trial.acquisition += std::chrono::duration_cast<Duration>(Watch::now() - start);
-      take(result, attempt.placement, trial);
+      take(result, truth, trial);
     }
   }
 
@@ -124,36 +130,27 @@ class Trials {
     return frames;
   }
 
-  static PoseError error(const core::Pose& pose, const host_sim::Pose& vehicle) {
-    return error_of(pose, {vehicle.position_m, vehicle.orientation()});
-  }
-
-  static void take(const core::TickResult& result, const Placement& placement, Trial& trial) {
-    const auto& vehicle = placement.vehicle;
-    trial.reason = result.reason;
-    if (result.has_candidate && !trial.candidate) {
-      trial.candidate = {result.acquisition.false_lock_probability,
-                         vehicle && !error(result.candidate, *vehicle).wrong_lock()};
-    }
-    if (!result.has_pose) {
-      if (is_held_back(result.reason)) trial.outcome = Outcome::held_back;
-      return;
-    }
-    trial.lock_tick = static_cast<int>(result.tick);
-    trial.outcome = Outcome::wrong_lock;
-    if (!vehicle) return;
-    const PoseError off = error(result.pose, *vehicle);
-    trial.position_mm = off.position_mm();
-    trial.attitude_deg = off.attitude_deg();
-    if (!off.wrong_lock()) trial.outcome = Outcome::right_lock;
-  }
-
   const Scene& scene_;
   SceneRenderer& renderer_;
   const config::RigConfig& config_;
   const TrialOptions& options_;
   std::vector<SceneRenderer::Shot> shots_;  // kept from batch to batch for their memory
 };
+
+std::string trials_json(const Scene& scene, const TrialOptions& options, const TrialRun& run) {
+  const auto flag = [](bool value) { return value ? "true" : "false"; };
+  JsonObject report(0);
+  report.add("scenario", json_string(scene.name));
+  report.add("seed", scene.seed);
+  report.add("first", options.first);
+  report.add("asked", run.asked);
+  report.add("interrupted", flag(run.trials.size() < run.asked));
+  report.add("ticks_allowed", options.ticks);
+  report.add("fine", flag(options.detail == host_sim::Detail::full));
+  add_summary(run.trials, report);
+  report.add("trials_per_s", run.trials_per_s);
+  return report.text() + "\n";
+}
 
 Result<config::RigConfig> told_rig(const Scene& scene, const std::filesystem::path& folder) {
   if (auto done = host_sim::write_rig(scene, folder); !done) {
@@ -178,20 +175,6 @@ void run_batches(Trials& trials, const TrialOptions& options, telemetry::OutputF
 
 }  // namespace
 
-std::string_view to_string(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::right_lock:
-      return "right";
-    case Outcome::wrong_lock:
-      return "wrong";
-    case Outcome::held_back:
-      return "held_back";
-    case Outcome::no_lock:
-      return "none";
-  }
-  return "none";
-}
-
 Result<TrialRun> run_trials(const Scene& scene, SceneRenderer& renderer,
                             const TrialOptions& options) {
   if (const auto made = make_folder(options.out); !made) return tl::unexpected<Error>(made.error());
@@ -203,6 +186,7 @@ Result<TrialRun> run_trials(const Scene& scene, SceneRenderer& renderer,
   print_warnings(*config);
   Trials trials(scene, renderer, *config, options);
   TrialRun run;
+  run.asked = options.count;
   csv->write(trials_csv_header());
   const auto start = Watch::now();
   run_batches(trials, options, *csv, run);
@@ -211,6 +195,10 @@ Result<TrialRun> run_trials(const Scene& scene, SceneRenderer& renderer,
   if (auto done = csv->finish(); !done) return tl::unexpected<Error>(done.error());
   const auto calibration = options.out / "calibration.csv";
   if (auto done = telemetry::write_file(calibration, calibration_csv(run.trials)); !done) {
+    return tl::unexpected<Error>(done.error());
+  }
+  const auto report = options.out / "report.json";
+  if (auto done = telemetry::write_file(report, trials_json(scene, options, run)); !done) {
     return tl::unexpected<Error>(done.error());
   }
   return run;
