@@ -33,6 +33,7 @@ struct SimCommand {
   std::uint64_t acquisitions = 0;
   std::uint64_t first = 0;
   int trial_ticks = TrialOptions{}.ticks;
+  double trial_speed_m_s = 0.0;
   bool fine = false;
   bool explain = false;
   unsigned threads = 0;
@@ -126,6 +127,7 @@ int run_placements(const host_sim::Scene& scene, const SimCommand& command) {
   options.first = command.first;
   options.count = command.acquisitions;
   options.ticks = command.trial_ticks;
+  options.speed_m_s = command.trial_speed_m_s;
   options.detail = command.fine ? host_sim::Detail::full : host_sim::Detail::quick;
   options.go_on = [&](std::uint64_t done) {
     progress->show(done);
@@ -170,9 +172,14 @@ void add_trial_options(CLI::App& sub, SimCommand& command, CLI::Option& record) 
       ->check(CLI::Range(0, 1000000000))
       ->needs(acquisitions);
   sub.add_option("--trial-ticks", command.trial_ticks,
-                 "Ticks that each placement stands still for until there is a lock")
+                 "Ticks that each placement has until there must be a lock")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000))
+      ->needs(acquisitions);
+  sub.add_option("--speed", command.trial_speed_m_s,
+                 "Metres a second that the vehicle drives straight ahead meanwhile; 0: it stands")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 100.0))
       ->needs(acquisitions);
   sub.add_flag("--fine", command.fine,
                "Placements rendered with every shadow, as a run's ticks are; slower")

@@ -40,6 +40,7 @@ struct Trial {
   double yaw_rad = 0.0;
   int dots = 0;               // on the target
   int dots_in_two_views = 0;  // truly visible to two cameras or more
+  int dots_well_lit = 0;      // of those: no shadow's edge on them, and not dark
   int ticks_allowed = 0;
   Outcome outcome = Outcome::no_lock;
   core::Reason reason = core::Reason::none;  // of the last tick
@@ -55,7 +56,10 @@ struct Trial {
 
   bool locked() const { return lock_tick >= 0; }
   // Whether there was enough to lock on to: four dots, or all three of three, in two views each.
-  bool lockable() const { return dots > 0 && dots_in_two_views >= (dots < 4 ? dots : 4); }
+  bool lockable() const { return enough(dots_in_two_views); }
+  // Whether that was so with shadows reckoned in.
+  bool well_lit() const { return enough(dots_well_lit); }
+  bool enough(int seen) const { return dots > 0 && seen >= (dots < 4 ? dots : 4); }
 };
 
 // Takes what one tick came to into its trial; `vehicle`: where it truly was, if there was one.

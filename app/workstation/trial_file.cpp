@@ -14,7 +14,7 @@
 namespace dottrack::workstation {
 namespace {
 
-constexpr std::size_t kFields = 20;
+constexpr std::size_t kFields = 21;
 constexpr int kReasons = 256;  // no more, of a byte
 using Fields = std::array<std::string_view, kFields>;
 
@@ -71,14 +71,15 @@ bool read_trial(std::string_view line, Trial& trial) {
   trial.scene = f[0];
   bool good = read(f[1], trial.seed) && read(f[2], trial.index) && read(f[3], trial.x_m) &&
               read(f[4], trial.y_m) && read(f[5], yaw_deg) && read(f[6], trial.dots) &&
-              read(f[7], trial.dots_in_two_views) && read(f[9], trial.ticks_allowed);
-  good = good && read_word(f[10], kOutcomes, trial.outcome) &&
-         read_word(f[11], kReasons, trial.reason);
-  good = good && read_if_there(f[12], trial.lock_tick) && read_if_there(f[13], trial.position_mm) &&
-         read_if_there(f[14], trial.attitude_deg) && read_if_there(f[15], trial.lock_probability);
+              read(f[7], trial.dots_in_two_views) && read(f[8], trial.dots_well_lit) &&
+              read(f[10], trial.ticks_allowed);
+  good = good && read_word(f[11], kOutcomes, trial.outcome) &&
+         read_word(f[12], kReasons, trial.reason);
+  good = good && read_if_there(f[13], trial.lock_tick) && read_if_there(f[14], trial.position_mm) &&
+         read_if_there(f[15], trial.attitude_deg) && read_if_there(f[16], trial.lock_probability);
   trial.yaw_rad = M_PI / 180.0 * yaw_deg;
-  return good && read_candidate(f[16], f[17], trial) && read(f[18], trial.dots_matched) &&
-         read(f[19], trial.min_views) && is_whole(trial);
+  return good && read_candidate(f[17], f[18], trial) && read(f[19], trial.dots_matched) &&
+         read(f[20], trial.min_views) && is_whole(trial);
 }
 
 }  // namespace

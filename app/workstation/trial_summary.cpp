@@ -9,7 +9,8 @@ namespace dottrack::workstation {
 namespace {
 
 constexpr std::string_view kHeader =
-    "scene,seed,index,x_m,y_m,yaw_deg,dots,dots_in_two_views,lockable,ticks_allowed,outcome,reason,"
+    "scene,seed,index,x_m,y_m,yaw_deg,dots,dots_in_two_views,dots_well_lit,lockable,ticks_allowed,"
+    "outcome,reason,"
     "lock_tick,position_mm,attitude_deg,false_lock_probability,candidate_false_lock_probability,"
     "candidate_right,dots_matched,min_views\n";
 
@@ -80,6 +81,27 @@ std::string calibration_text(std::span<const Trial> trials) {
   return text + row("all", all);
 }
 
+void add(const Trial& trial, TrialSummary& summary) {
+  ++summary.placements;
+  summary.ticks_allowed = std::max(summary.ticks_allowed, trial.ticks_allowed);
+  switch (trial.outcome) {
+    case Outcome::right_lock:
+      ++summary.right;
+      if (trial.lock_tick == 0) ++summary.right_in_first_tick;
+      break;
+    case Outcome::wrong_lock:
+      ++summary.wrong;
+      break;
+    case Outcome::held_back:
+      ++summary.held_back;
+      break;
+    case Outcome::no_lock:
+      ++summary.none;
+      break;
+  }
+  if (!trial.locked()) ++summary.reasons[{trial.outcome, trial.reason}];
+}
+
 std::string json_of(const TrialSummary& s) {
   JsonObject reasons(2);
   for (const Outcome outcome : {Outcome::held_back, Outcome::no_lock}) {
@@ -111,25 +133,15 @@ std::size_t decade_of(double probability) {
 TrialSummary summary_of(std::span<const Trial> trials, bool lockable) {
   TrialSummary summary;
   for (const Trial& trial : trials) {
-    if (trial.lockable() != lockable) continue;
-    ++summary.placements;
-    summary.ticks_allowed = std::max(summary.ticks_allowed, trial.ticks_allowed);
-    switch (trial.outcome) {
-      case Outcome::right_lock:
-        ++summary.right;
-        if (trial.lock_tick == 0) ++summary.right_in_first_tick;
-        break;
-      case Outcome::wrong_lock:
-        ++summary.wrong;
-        break;
-      case Outcome::held_back:
-        ++summary.held_back;
-        break;
-      case Outcome::no_lock:
-        ++summary.none;
-        break;
-    }
-    if (!trial.locked()) ++summary.reasons[{trial.outcome, trial.reason}];
+    if (trial.lockable() == lockable) add(trial, summary);
+  }
+  return summary;
+}
+
+TrialSummary summary_of_well_lit(std::span<const Trial> trials) {
+  TrialSummary summary;
+  for (const Trial& trial : trials) {
+    if (trial.well_lit()) add(trial, summary);
   }
   return summary;
 }
@@ -170,6 +182,7 @@ std::array<CalibrationBin, kCalibrationDecades> calibration_of(std::span<const T
 std::string summary_text(std::span<const Trial> trials) {
   const LockDoubt doubt = doubt_of_locks(trials);
   return heading() + rows(summary_of(trials, true), "lockable: enough dots truly in two views") +
+         rows(summary_of_well_lit(trials), "of these: enough of them well lit") +
          rows(summary_of(trials, false), "the others") +
          fmt::format("of {} locks, {:.2g} wrong by the tracker's own estimate; {} were\n",
                      doubt.locks, doubt.expected_wrong, doubt.wrong) +
@@ -181,6 +194,7 @@ std::string summary_text(std::span<const Trial> trials) {
 void add_summary(std::span<const Trial> trials, JsonObject& report) {
   report.add("placements", trials.size());
   report.add("lockable", json_of(summary_of(trials, true)));
+  report.add("well_lit", json_of(summary_of_well_lit(trials)));
   report.add("others", json_of(summary_of(trials, false)));
   const LockDoubt doubt = doubt_of_locks(trials);
   report.add("locks", doubt.locks);
@@ -210,11 +224,11 @@ std::string csv_line(const Trial& t) {
   const auto rounded = [&](double value) { return t.locked() ? fmt::format("{:.4f}", value) : ""; };
   const Candidate candidate = t.candidate.value_or(Candidate{});
   return fmt::format(
-      "{},{},{},{:.4f},{:.4f},{:.2f},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", t.scene, t.seed,
-      t.index, t.x_m, t.y_m, 180.0 / M_PI * t.yaw_rad, t.dots, t.dots_in_two_views,
-      t.lockable() ? 1 : 0, t.ticks_allowed, to_string(t.outcome), core::to_string(t.reason),
-      known(t.locked(), t.lock_tick), rounded(t.position_mm), rounded(t.attitude_deg),
-      known(t.locked(), t.lock_probability),
+      "{},{},{},{:.4f},{:.4f},{:.2f},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", t.scene,
+      t.seed, t.index, t.x_m, t.y_m, 180.0 / M_PI * t.yaw_rad, t.dots, t.dots_in_two_views,
+      t.dots_well_lit, t.lockable() ? 1 : 0, t.ticks_allowed, to_string(t.outcome),
+      core::to_string(t.reason), known(t.locked(), t.lock_tick), rounded(t.position_mm),
+      rounded(t.attitude_deg), known(t.locked(), t.lock_probability),
       known(t.candidate.has_value(), candidate.false_lock_probability),
       known(t.candidate.has_value(), candidate.right ? 1 : 0), t.dots_matched, t.min_views);
 }

@@ -29,6 +29,8 @@ struct TrialSummary {
 
 // Of those trials that were lockable, or of the others.
 TrialSummary summary_of(std::span<const Trial> trials, bool lockable);
+// Of those that were lockable with shadows reckoned in.
+TrialSummary summary_of_well_lit(std::span<const Trial> trials);
 
 // Never a wrong lock and, where there is something to lock on to, a right one.
 bool good(std::span<const Trial> trials);

@@ -8,7 +8,6 @@
 #include <csignal>
 
 #include <chrono>
-#include <sstream>
 #include <thread>
 
 #include "app/workstation/acquisitions_command.h"
@@ -25,8 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLockableField = 8;  // of a line of acquisitions.csv
-constexpr std::size_t kOutcomeField = 10;
+constexpr std::size_t kLockableField = 9;  // of a line of acquisitions.csv
+constexpr std::size_t kOutcomeField = 11;
 
 using test::ProgramRun;
 using test::small_scenario;
@@ -35,15 +34,6 @@ using testing::HasSubstr;
 ProgramRun run_sim(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "sim");
   return test::run_program(add_sim_command, std::move(arguments));
-}
-
-// What the loader says of the scenario's target.
-bool only_warnings(const std::string& err) {
-  std::istringstream lines(err);
-  for (std::string line; std::getline(lines, line);) {
-    if (!line.starts_with("dottrack: warning: ")) return false;
-  }
-  return true;
 }
 
 class SimCommand : public testing::Test {
@@ -59,7 +49,7 @@ class SimCommand : public testing::Test {
 TEST_F(SimCommand, LeavesPosesTruthPlotsPicturesAndAReport) {
   const ProgramRun run = run_sim({scenario(), "--out", at("out").string()});
   EXPECT_EQ(run.status, 0) << run.out << run.err;
-  EXPECT_TRUE(only_warnings(run.err)) << run.err;
+  EXPECT_TRUE(test::only_warnings(run.err)) << run.err;
   EXPECT_THAT(run.out, HasSubstr("ticks with a pose        6 of 6\n"));
   EXPECT_THAT(run.out, HasSubstr("wrong-lock ticks         0\n"));
   EXPECT_EQ(lines_of(at("out/truth.tum")).size(), 6U);
@@ -137,8 +127,9 @@ TEST_F(SimCommand, RandomPlacementsAreCountedByWhatCouldBeSeen) {
   EXPECT_THAT(run.out, HasSubstr("acquisitions a second"));
   const auto lines = lines_of(at("out/acquisitions.csv"));
   ASSERT_EQ(lines.size(), 5U);
-  EXPECT_THAT(lines[0], testing::StartsWith("scene,seed,index,x_m,y_m,yaw_deg,dots,"
-                                            "dots_in_two_views,lockable,ticks_allowed,outcome,"));
+  EXPECT_THAT(lines[0], testing::StartsWith(
+                            "scene,seed,index,x_m,y_m,yaw_deg,dots,"
+                            "dots_in_two_views,dots_well_lit,lockable,ticks_allowed,outcome,"));
   for (std::size_t i = 1; i < lines.size(); ++i) {
     EXPECT_THAT(lines[i], testing::StartsWith("small,1," + std::to_string(i - 1) + ","));
     EXPECT_EQ(split(lines[i], ',').size(), split(lines[0], ',').size()) << lines[i];
@@ -191,8 +182,8 @@ TEST_F(SimCommand, SumsWithAWrongLockFailAndWrongTablesAreOneLine) {
     const fs::path file = folder_.write("table.csv", text);
     return test::run_program(add_acquisitions_command, {"acquisitions", file.string()});
   };
-  EXPECT_EQ(sum(header + "s,1,0,0,0,0,5,5,1,3,right,none,0,1,1,1e-9,1e-9,1,5,2\n").status, 0);
-  EXPECT_EQ(sum(header + "s,1,0,0,0,0,5,5,1,3,wrong,none,0,900,1,1e-9,1e-9,0,5,2\n").status, 1);
+  EXPECT_EQ(sum(header + "s,1,0,0,0,0,5,5,5,1,3,right,none,0,1,1,1e-9,1e-9,1,5,2\n").status, 0);
+  EXPECT_EQ(sum(header + "s,1,0,0,0,0,5,5,5,1,3,wrong,none,0,900,1,1e-9,1e-9,0,5,2\n").status, 1);
   const std::string table = at("table.csv").string();
   const auto expect_wrong_use = [&](const ProgramRun& run, const std::string& line) {
     EXPECT_EQ(run.status, 2) << line;
@@ -204,12 +195,28 @@ TEST_F(SimCommand, SumsWithAWrongLockFailAndWrongTablesAreOneLine) {
                                           "scene,seed,index,x_m,y_m...");
   expect_wrong_use(sum(header + "s,1,0\n"),
                    table +
-                       ": line 2 is no line of an acquisitions.csv; expected 20 fields as in "
+                       ": line 2 is no line of an acquisitions.csv; expected 21 fields as in "
                        "the header");
   expect_wrong_use(sum(header), "no placement in any file; expected lines of acquisitions.csv");
   expect_wrong_use(
       test::run_program(add_acquisitions_command, {"acquisitions", at("none.csv").string()}),
       at("none.csv").string() + ": cannot be read; expected an acquisitions.csv");
+}
+
+TEST_F(SimCommand, PlacementsMayDriveOn) {
+  const auto lines = [&](const std::string& out, const std::string& speed) {
+    const ProgramRun run = run_sim({scenario(), "--out", at(out).string(), "--acquisitions", "6",
+                                    "--trial-ticks", "4", "--speed", speed});
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    return lines_of(at(out) / "acquisitions.csv");
+  };
+  const auto standing = lines("standing", "0");
+  const auto driving = lines("driving", "0.5");
+  ASSERT_EQ(driving.size(), standing.size());
+  for (std::size_t i = 1; i < driving.size(); ++i) {
+    EXPECT_EQ(split(driving[i], ',')[kOutcomeField], split(standing[i], ',')[kOutcomeField]);
+  }
+  EXPECT_NE(driving, standing) << "smeared a little";
 }
 
 TEST_F(SimCommand, PlacementsWithoutAVehicleAreNeverLockedOnTo) {

@@ -34,6 +34,8 @@ std::vector<Trial> some_trials() {
                                trial_of(3, Outcome::held_back, -1, 0.4, false)};
   trials[0].lock_probability = trials[1].lock_probability = 1e-9;
   trials[1].position_mm = 1.5;
+  for (std::size_t i = 0; i < 3; ++i) trials[i].dots_well_lit = 4;
+  trials[3].dots_well_lit = 3;
   trials[1].dots_matched = 4;
   trials[1].min_views = 2;
   Trial& unable = trials.emplace_back();
@@ -139,6 +141,7 @@ TEST(TrialFile, PiecesJoinedReadBackAsTheyWere) {
   EXPECT_DOUBLE_EQ((*back)[1].position_mm, 1.5);
   EXPECT_EQ((*back)[1].dots_matched, 4);
   EXPECT_EQ((*back)[1].min_views, 2);
+  EXPECT_EQ((*back)[3].dots_well_lit, 3);
   EXPECT_EQ((*back)[1].scene, "drive");
   EXPECT_EQ((*back)[1].seed, 7U);
   EXPECT_EQ((*back)[1].lock_probability, 1e-9);
@@ -147,7 +150,7 @@ TEST(TrialFile, PiecesJoinedReadBackAsTheyWere) {
 
 TEST(TrialFile, WhatIsNoLineIsRefusedWithItsNumber) {
   const std::string good = trials_csv_header() + csv_line(some_trials()[0]);
-  const std::string rest = ",0,0,0,5,4,1,3,";
+  const std::string rest = ",0,0,0,5,4,2,1,3,";
   ASSERT_TRUE(trials_from_csv(good + "drive,7,9" + rest + "none,residual,,,,,,,0,0\n"));
   for (const std::string& bad :
        {std::string("1,2,3\n"), "drive,7,x" + rest + "none,residual,,,,,,,0,0\n",
