@@ -203,20 +203,33 @@ TEST_F(SimCommand, SumsWithAWrongLockFailAndWrongTablesAreOneLine) {
       at("none.csv").string() + ": cannot be read; expected an acquisitions.csv");
 }
 
-TEST_F(SimCommand, PlacementsMayDriveOn) {
-  const auto lines = [&](const std::string& out, const std::string& speed) {
-    const ProgramRun run = run_sim({scenario(), "--out", at(out).string(), "--acquisitions", "6",
-                                    "--trial-ticks", "4", "--speed", speed});
+// Three dots are held back by nature: what is found must persist and move as a vehicle can.
+TEST_F(SimCommand, PlacementsThatDriveOnAreBelievedSooner) {
+  const std::string file = scenario("[vehicle]\ndots = 3\n");
+  const auto right_locks = [&](const std::string& speed) {
+    const ProgramRun run = run_sim({file, "--out", at("speed" + speed).string(), "--first", "5",
+                                    "--acquisitions", "4", "--trial-ticks", "6", "--speed", speed});
     EXPECT_EQ(run.status, 0) << run.out << run.err;
-    return lines_of(at(out) / "acquisitions.csv");
+    const auto lines = lines_of(at("speed" + speed) / "acquisitions.csv");
+    EXPECT_EQ(lines.size(), 5U);
+    return std::count_if(lines.begin(), lines.end(), [](const std::string& line) {
+      return split(line, ',')[kOutcomeField] == "right";
+    });
   };
-  const auto standing = lines("standing", "0");
-  const auto driving = lines("driving", "0.5");
-  ASSERT_EQ(driving.size(), standing.size());
-  for (std::size_t i = 1; i < driving.size(); ++i) {
-    EXPECT_EQ(split(driving[i], ',')[kOutcomeField], split(standing[i], ',')[kOutcomeField]);
-  }
-  EXPECT_NE(driving, standing) << "smeared a little";
+  EXPECT_LT(right_locks("0"), 4);
+  EXPECT_EQ(right_locks("0.5"), 4);
+}
+
+TEST_F(SimCommand, ExplainsTicksWithoutAPose) {
+  const std::string file = scenario(
+      "[[camera_fault]]\ncamera = \"cam2\"\nkind = \"dead\"\nfrom_s = 0.0\nto_s = 9.0\n"
+      "[[camera_fault]]\ncamera = \"cam3\"\nkind = \"dead\"\nfrom_s = 0.0\nto_s = 9.0\n"
+      "[[camera_fault]]\ncamera = \"cam4\"\nkind = \"dead\"\nfrom_s = 0.0\nto_s = 9.0\n");
+  const ProgramRun run = run_sim({file, "--out", at("out").string(), "--no-pictures", "--explain"});
+  EXPECT_EQ(run.status, 1) << run.out;
+  EXPECT_THAT(run.out, HasSubstr("tick 0: no pose: too_few_cameras, while acquiring\n"));
+  EXPECT_THAT(run.out, HasSubstr("    cam4           no image\n"));
+  EXPECT_THAT(run.out, HasSubstr("ticks 1 to 5: too_few_cameras still\n"));
 }
 
 TEST_F(SimCommand, PlacementsWithoutAVehicleAreNeverLockedOnTo) {
