@@ -6,13 +6,11 @@
 #include <span>
 
 #include "app/core/image/region_sums.h"
-#include "hal/base/image_view.h"
 
 namespace dottrack::image {
 
 // How much a pixel counts in its region's centroid: sign * value + offset, at least 1.
 struct PixelWeights {
-  ImageView values;  // as large as the window that was searched
   int sign = 1;
   int offset = 0;
 };

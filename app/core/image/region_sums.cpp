@@ -130,12 +130,17 @@ void sum_wide(const SumsOf& of, const Component& component, RegionSums& sums) {
     const int y = row(of.runs[i].first);
     const int n = of.runs[i].last - of.runs[i].first + 1;
     const int room = of.pixels.width_px - x;
+    const std::uint8_t* const thresholds =
+        of.thresholds.data != nullptr ? of.thresholds.row(y) : nullptr;
     for (int k = 0; k < n; k += kStep) {
       const int count = std::min(n - k, kStep);
+      const Vector pixel = load(of.pixels.row(y) + x + k, count, room - k);
+      Vector value = pixel;
+      if (thresholds != nullptr) {
+        value = hn::Abs(hn::Sub(pixel, load(thresholds + x + k, count, kStep)));
+      }
       lanes.add(hn::Add(lane, all(x + k - component.x_min)), all(y - component.y_min),
-                hn::VecFromMask(kLanes, hn::Lt(lane, all(count))),
-                load(of.pixels.row(y) + x + k, count, room - k),
-                load(of.values.row(y) + x + k, count, room - k), flip);
+                hn::VecFromMask(kLanes, hn::Lt(lane, all(count))), pixel, value, flip);
     }
   }
   lanes.finish();

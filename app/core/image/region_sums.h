@@ -7,6 +7,7 @@
 #include <span>
 
 #include "app/core/image/components.h"
+#include "app/core/image/local_background.h"
 #include "app/core/image/run_scan.h"
 #include "app/core/rig.h"
 #include "hal/base/image_view.h"
@@ -25,11 +26,11 @@ struct RegionSums {
   int height = 0;
 };
 
-// What the sums are of: `pixels` is the image inside the searched window, `values`, as large, what
-// v, vx, vy are of.
+// What the sums are of: `pixels` is the image inside the searched window. Its values are the pixels
+// themselves or, where there are thresholds, by how much they go beyond theirs.
 struct SumsOf {
   const ImageView& pixels;
-  const ImageView& values;
+  const Thresholds& thresholds;
   core::Polarity polarity;
   const RunList& runs;
   const Components& components;
