@@ -98,14 +98,6 @@ void identify_sim(benchmark::State& state) {
   }
   if (accepted < 4) state.SkipWithError("identify found too few regions");
   state.counters["regions"] = accepted;
-  for (std::size_t i = 0; i < scene.rig().cameras.size(); ++i) {
-    auto c = identifier->identify(frames[i].image, image::band_of(scene.rig().cameras[i]), gates[i], *regions);
-    fprintf(stderr, "DBG %zu %dx%d runs %u comp %u rsize %u rshape %u acc %u gate %g..%g contrast %d bg %d [%d,%d]\n", i, frames[i].image.width_px, frames[i].image.height_px, c.runs, c.components, c.rejected_size, c.rejected_shape, c.accepted, gates[i].semi_major_min_px, gates[i].semi_major_max_px, scene.rig().cameras[i].min_contrast_dn, scene.rig().cameras[i].background_px, scene.rig().cameras[i].intensity_min_dn, scene.rig().cameras[i].intensity_max_dn);
-    FILE* f = fopen(("/tmp/I_sim" + std::to_string(i) + ".pgm").c_str(), "wb");
-    fprintf(f, "P5\n%d %d\n255\n", frames[i].image.width_px, frames[i].image.height_px);
-    for (int y = 0; y < frames[i].image.height_px; ++y) fwrite(frames[i].image.row(y), 1, static_cast<std::size_t>(frames[i].image.width_px), f);
-    fclose(f);
-  }
 }
 
 BENCHMARK(identify_sim)->Name("identify/sim")->Unit(benchmark::kMicrosecond);
