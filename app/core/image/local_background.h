@@ -23,11 +23,12 @@ struct Thresholds {
 };
 
 // The image is divided into tiles of 8 x 8 pixels from its first pixel on; those at its right and
-// lower edge may be smaller. The background in the middle of a tile is the mean over the tiles
-// around it, 2 (background_px / 16) + 1 each way, as far as there are any. Between the middles of
-// tiles it is interpolated in both directions, the same for 2 x 2 pixels, by rounded integers;
-// beyond the outermost middles it stays what it is there. So it is that of the image, whatever
-// the window.
+// lower edge may be smaller. The background in the middle of a tile is the mean, rounded, of the
+// pixels of a box of tiles around it, 2 (background_px / 16) + 1 each way, or of the part of that
+// box which lies inside the image. From the middles it is interpolated along the rows and then
+// along the columns, by averages of two, for 2 x 2 pixels at a time; outside the outermost middles
+// it is that of the nearest. So it is the same in every window of an image, and it costs little
+// more than the image's sum.
 //
 // Means that leave out pixels found bright, or replace them by the mean, were tried on real plates
 // (dots of 7 px, noise of 6 DN, box of 21 px, contrast of 8 DN): they find no dot that this one

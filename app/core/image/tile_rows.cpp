@@ -97,7 +97,7 @@ void means_of(const TileBoxes& boxes, int n, std::uint8_t* means) {
   }
 }
 
-// One, three, five and seven eighths of the way from a to b.
+// One, three, five and seven eighths of the way from a to b, each average rounded up.
 template <class D, class V = hn::Vec<D>>
 struct Eighths {
   HWY_INLINE Eighths(V a, V b) {
@@ -113,14 +113,18 @@ struct Eighths {
   V one, three, five, seven;
 };
 
+// Of the complements, so that averages are rounded down: those between rows are rounded up, and
+// together they favour neither.
 void stretch_row(const std::uint8_t* means, int n, std::uint8_t* row) {
   const hn::CappedTag<std::uint16_t, 16> pairs;
   const hn::Rebind<std::uint8_t, decltype(pairs)> bytes;
   constexpr int kStep = static_cast<int>(MaxLanes(pairs));
   const auto twice = hn::Set(pairs, 0x0101);
   for (int i = 0; i < n; i += kStep) {
-    const Eighths<decltype(bytes)> at(hn::LoadU(bytes, means + i), hn::LoadU(bytes, means + i + 1));
-    const auto pair = [&](auto v) HWY_ATTR { return hn::Mul(hn::PromoteTo(pairs, v), twice); };
+    const Eighths<decltype(bytes)> at(hn::Not(hn::LoadU(bytes, means + i)),
+                                      hn::Not(hn::LoadU(bytes, means + i + 1)));
+    const auto pair = [&](auto v)
+                          HWY_ATTR { return hn::Mul(hn::PromoteTo(pairs, hn::Not(v)), twice); };
     // The bytes of a pair are equal, so their order does not matter.
     hn::StoreInterleaved4(pair(at.one), pair(at.three), pair(at.five), pair(at.seven), pairs,
                           reinterpret_cast<std::uint16_t*>(row + i * kTile_px));

@@ -34,9 +34,9 @@ struct TileBoxes {
 // means[i] = the mean of the box's pixels, flipped for dark dots, rounded to an integer.
 void mean_of_boxes(const TileBoxes& boxes, int n, std::uint8_t* means);
 
-// From values in the middles of tiles to a row of pixels which begins in the middle of the first:
-// a quarter of a tile at a time between means[i] and means[i + 1], for i < n. May write up to
-// 31 tiles beyond the last.
+// From means in the middles of tiles to a row of pixels which begins in the middle of the first:
+// one, three, five and seven eighths of the way from means[i] to means[i + 1], two pixels each, for
+// i < n. May write up to 15 tiles beyond the last.
 void stretch(const std::uint8_t* means, int n, std::uint8_t* row);
 
 struct Needed {
@@ -45,8 +45,8 @@ struct Needed {
   Flip flip;
 };
 
-// kRowsPerTile rows of n thresholds from the stretched rows in the middles of two rows of tiles.
-// May write up to 63 beyond the last.
+// kRowsPerTile rows of n thresholds, one, three, five and seven eighths of the way between the
+// stretched means of two rows of tiles. May write up to 63 beyond the last.
 void thresholds_between(const std::uint8_t* upper, const std::uint8_t* lower, int n,
                         const Needed& needed, std::uint8_t* thresholds, std::ptrdiff_t stride);
 
