@@ -17,7 +17,9 @@ HWY_BEFORE_NAMESPACE();
 namespace dottrack::image {
 namespace HWY_NAMESPACE {
 
-constexpr std::ptrdiff_t kRowsAhead = 2;
+// How far ahead of a row the image is sent for: without a background, the next rows but one; with
+// one, those that it has not seen yet.
+constexpr int kRowsAhead = 2;
 
 // What it takes to be in band, from the cheapest case to the general one.
 struct AtLeast {
@@ -104,11 +106,11 @@ HWY_INLINE std::uint64_t band_tail(const std::uint8_t* pixels, int count, int be
 }
 
 template <class Test>
-HWY_INLINE void fill(const ImageView& image, const Window& window, Test in_band, int y_first,
-                     int y_end, Bitmap& bitmap) {
+HWY_INLINE void fill(const ImageView& image, const Window& window, Test in_band, int rows_ahead,
+                     int y_first, int y_end, Bitmap& bitmap) {
   const int full_words = bitmap.width_px() / 64;
   const int tail = bitmap.width_px() % 64;
-  const std::ptrdiff_t ahead = kRowsAhead * image.stride_bytes;
+  const std::ptrdiff_t ahead = rows_ahead * image.stride_bytes;
   PixelKey* occupied = bitmap.occupied_end();
   for (int y = y_first; y < y_end; ++y) {
     const std::uint8_t* pixels = image.row(window.y_min + y) + window.x_min;
@@ -137,9 +139,9 @@ HWY_INLINE void fill(const ImageView& image, const Window& window, Test in_band,
 void fill_rows(const ImageView& image, const Window& window, std::uint8_t lo, std::uint8_t hi,
                int y_first, int y_end, Bitmap& bitmap) {
   if (hi == 255) {
-    fill(image, window, AtLeast{lo}, y_first, y_end, bitmap);
+    fill(image, window, AtLeast{lo}, kRowsAhead, y_first, y_end, bitmap);
   } else {
-    fill(image, window, between(lo, hi), y_first, y_end, bitmap);
+    fill(image, window, between(lo, hi), kRowsAhead, y_first, y_end, bitmap);
   }
 }
 
@@ -147,9 +149,10 @@ void fill_bright(const ImageView& image, const Window& window, std::uint8_t lo, 
                  const Thresholds& thresholds, int y_first, int y_end, Bitmap& bitmap) {
   const Beyond<true> beyond{thresholds};
   if (hi == 255) {
-    fill(image, window, beyond, y_first, y_end, bitmap);
+    fill(image, window, beyond, thresholds.rows_ahead, y_first, y_end, bitmap);
   } else {
-    fill(image, window, Both{beyond, between(lo, hi)}, y_first, y_end, bitmap);
+    fill(image, window, Both{beyond, between(lo, hi)}, thresholds.rows_ahead, y_first, y_end,
+         bitmap);
   }
 }
 
@@ -157,9 +160,10 @@ void fill_dark(const ImageView& image, const Window& window, std::uint8_t lo, st
                const Thresholds& thresholds, int y_first, int y_end, Bitmap& bitmap) {
   const Beyond<false> beyond{thresholds};
   if (lo == 0) {
-    fill(image, window, beyond, y_first, y_end, bitmap);
+    fill(image, window, beyond, thresholds.rows_ahead, y_first, y_end, bitmap);
   } else {
-    fill(image, window, Both{beyond, between(lo, hi)}, y_first, y_end, bitmap);
+    fill(image, window, Both{beyond, between(lo, hi)}, thresholds.rows_ahead, y_first, y_end,
+         bitmap);
   }
 }
 

@@ -87,7 +87,7 @@ void Identifier::Memory::take_rows(int y_end) {
 
 // A few rows at a time: while runs are sought in them, the next ones come from memory.
 void Identifier::Memory::find_components(const Search& search) {
-  constexpr int kRowsAtATime = 16;
+  constexpr int kRowsAtATime = LocalBackground::kRowsAtATime;
   const int height = search.height_px();
   bitmap.reshape(search.width_px(), height);
   runs.clear();

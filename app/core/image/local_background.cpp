@@ -60,7 +60,8 @@ void LocalBackground::start(const ImageView& image, const Window& window, const 
   const int last = (image.width_px - 1) / kTile_px;
   tile_count_ = std::min(first_ + count_ - 1 + reach_, last) - tile_first_ + 1;
   strip_ = tile_before(window.y_min);
-  thresholds_ = {values_.data() + kPad_px, kStride, window.y_min - middle_px(strip_)};
+  thresholds_ = {values_.data() + kPad_px, kStride, window.y_min - middle_px(strip_),
+                 kRowsAtATime + (reach_ + 1) * kTile_px};
   start_boxes(std::max(strip_, 0));
 }
 

@@ -17,6 +17,7 @@ struct Thresholds {
   const std::uint8_t* data = nullptr;  // none where there is no local background
   std::ptrdiff_t stride = 0;
   int rows_above = 0;  // of pixels, between the first row of thresholds and the window
+  int rows_ahead = 0;  // so far below a row, the image is looked at next
 
   // Two rows of pixels share one. It can be read for 64 bytes before and after.
   const std::uint8_t* row(int y) const { return data + ((rows_above + y) / 2) * stride; }
@@ -36,9 +37,11 @@ struct Thresholds {
 // the noise lowers the mean.
 class LocalBackground {
  public:
+  static constexpr int kRowsAtATime = 2 * kTile_px;
+
   // The window lies inside the image; min_contrast_dn of the band is at least 1.
   void start(const ImageView& image, const Window& window, const Band& band);
-  // Makes the thresholds of the window's rows before y_end, from where it was.
+  // Makes the thresholds of the window's rows before y_end, from where it was; best kRowsAtATime.
   void extend(int y_end);
 
   const Thresholds& thresholds() const { return thresholds_; }

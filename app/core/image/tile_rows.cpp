@@ -6,7 +6,6 @@
 #define HWY_TARGET_INCLUDE "app/core/image/tile_rows.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h, by its rules.
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -26,14 +25,12 @@ HWY_INLINE std::uint16_t sum_tile(const ImageView& pixels, int x) {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Of whole rows of tiles, 64 pixels at a time; returns where it ended. Nothing else has looked at
-// this part of the image yet: the next row of tiles is sent for meanwhile.
+// Of whole rows of tiles, 64 pixels at a time; returns where it ended.
 HWY_INLINE int sum_whole_tiles(const ImageView& pixels, std::uint16_t* sums) {
   const hn::CappedTag<std::uint8_t, 32> bytes;
   const hn::RepartitionToWide<hn::RepartitionToWide<hn::RepartitionToWide<decltype(bytes)>>> eights;
   const hn::Rebind<std::uint16_t, decltype(eights)> narrow;
   constexpr int kStep = static_cast<int>(MaxLanes(bytes));
-  const std::ptrdiff_t ahead = kTile_px * pixels.stride_bytes;
   const int x_end = pixels.width_px / 64 * 64;
   for (int x = 0; x < x_end; x += 64) {
     const std::uint8_t* row = pixels.data + x;
@@ -42,7 +39,6 @@ HWY_INLINE int sum_whole_tiles(const ImageView& pixels, std::uint16_t* sums) {
     for (auto& s : sum) s = hn::Zero(eights);
 #pragma GCC unroll 8
     for (int y = 0; y < kTile_px; ++y) {
-      hwy::Prefetch(row + ahead);
 #pragma GCC unroll 4
       for (int i = 0; i < 64 / kStep; ++i) {
         sum[i] = hn::Add(sum[i], hn::SumsOf8(hn::LoadU(bytes, row + i * kStep)));
