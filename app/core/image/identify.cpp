@@ -122,26 +122,20 @@ std::size_t Identifier::Memory::next_batch(const SizeBounds& bounds, std::size_t
 IdentifyCounts Identifier::Memory::pick_regions(const Search& search, const RegionGate& gate,
                                                 Regions& regions) {
   const ImageView pixels = search.pixels();
-  const core::Polarity polarity = search.band.polarity;
   const PixelWeights weights = weights_of(search.band);
   const Thresholds thresholds = thresholds_of(search);
+  const SumsOf of{pixels, thresholds, search.band.polarity, runs, components};
   const SizeBounds bounds(gate);
   IdentifyCounts counts;
   counts.runs = static_cast<std::uint32_t>(runs.size());
   counts.overflow_runs = runs.overflow();
   std::size_t next = 0;
   while (const std::size_t count = next_batch(bounds, next, counts)) {
-    sum_regions({pixels, thresholds, polarity, runs, components}, {batch.data(), count},
-                batch_sums.data());
-    measure({batch_sums.data(), count}, weights, moments);
-    judge({search.image,
-           search.window,
-           polarity,
-           components,
-           {batch.data(), count},
-           {batch_sums.data(), count},
-           moments},
-          gate, regions, counts);
+    const std::span<const std::uint32_t> which{batch.data(), count};
+    const std::span<RegionSums> sums{batch_sums.data(), count};
+    sum_regions(of, which, sums.data());
+    measure(sums, weights, moments);
+    judge({search.image, search.window, of, weights, which, sums, moments}, gate, regions, counts);
   }
   return counts;
 }

@@ -21,6 +21,7 @@ struct RegionSums {
   std::array<double, 8> of = {};
   double saturated_px = 0.0;  // pixels at 255
   int faintest_dn = 0;        // pixel; bright: darkest; dark: brightest
+  bool has_values = false;    // if not: v, vx, vy and the two above are anything
   int n = 0;
   int width = 0;  // of the bounding box
   int height = 0;
@@ -36,7 +37,11 @@ struct SumsOf {
   const Components& components;
 };
 
-// The sums of components[which[i]] to sums[i].
+// The sums of components[which[i]] to sums[i]: of large ones without the values, which cost as much
+// as they have pixels, and few turn out to be dots.
 void sum_regions(const SumsOf& of, std::span<const std::uint32_t> which, RegionSums* sums);
+
+// Adds the values.
+void sum_values(const SumsOf& of, const Component& component, RegionSums& sums);
 
 }  // namespace dottrack::image
