@@ -19,7 +19,7 @@ using Mask = hn::Mask<Lanes>;
 
 // A Newton step below this leaves an error of its square: under double precision.
 constexpr double kLastStep = 1e-9;
-constexpr int kMostSteps = 6;
+constexpr int kMostSteps = 8;
 // Of the cosine to the image plane's normal and to the optical axis: what is less goes the careful
 // way.
 constexpr double kLeastCosine = 1e-6;
