@@ -14,7 +14,7 @@ namespace {
 
 // Lines of sight cross by chance in two views often, in more hardly ever: the target is looked for
 // among the finalists of many views first, then of fewer.
-constexpr std::array<int, 3> kViewLayers = {4, 3, 2};
+constexpr std::array<int, 4> kViewLayers = {6, 4, 3, 2};
 
 // A later candidate takes the place of an earlier one, of more dots or more views, only when it is
 // clearly less probable to be false.
