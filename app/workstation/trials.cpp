@@ -61,7 +61,7 @@ class Trials {
     std::vector<Attempt*> open;
     for (Attempt& attempt : attempts) open.push_back(&attempt);
     for (int tick = 0; tick < options_.ticks && !open.empty(); ++tick) {
-      if (tick == 0 || options_.speed_m_s > 0.0) take_pictures(open, tick);
+      if (tick == 0 || moves()) take_pictures(open, tick);
       for_each(open.size(), [&](std::size_t i) { step(shots_[i], *open[i], tick); });
       leave_out_locked(open);
     }
@@ -79,7 +79,7 @@ class Trials {
     Attempt attempt;
     Placement& placement = attempt.placement;
     placement = host_sim::random_placement(scene_, renderer_.hall().scene, scene_.seed, index);
-    if (placement.vehicle && options_.speed_m_s > 0.0) {
+    if (moves()) {
       placement.bodies.front().motion = straight_ahead(*placement.vehicle);
     }
     attempt.bodies = std::make_unique<host_sim::BodyScenes>(placement.bodies);
@@ -123,6 +123,8 @@ class Trials {
       if (views[dot] >= 2 && lit) ++trial.dots_well_lit;
     }
   }
+
+  bool moves() const { return scene_.vehicle && options_.speed_m_s > 0.0; }
 
   double time_s(int tick) const { return tick / config_.frame_rate_hz; }
 
