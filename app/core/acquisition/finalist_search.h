@@ -27,7 +27,7 @@ class FinalistSearch {
   // Begins anew. The views must stay as they are until the search is given up.
   void start(std::span<const CameraView> views, double largest_diameter_m);
 
-  // Searches on for every finalist that at least min_views cameras (4, 3 or 2) see. True when the
+  // Searches on for every finalist that at least min_views cameras (2 or more) see. True when the
   // search is complete; false when the budget ran out: call again with another one. Within one
   // search min_views may only become smaller; what was found before is kept.
   bool advance(int min_views, WorkBudget& budget, core::AcquisitionCounts& counts);

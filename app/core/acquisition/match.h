@@ -22,7 +22,6 @@ namespace dottrack::acquisition {
 struct CameraView {
   const core::Camera* camera = nullptr;
   estimation::Sightings sightings;
-  double origin_offset_m = 0.0;  // furthest that a ray's origin is from the camera's centre
 };
 
 // One sighting in each of two cameras that may be the same dot.

@@ -79,6 +79,7 @@ void PairOrder::start(std::span<const CameraView> views) {
   for (std::size_t c = 0; c < views.size(); ++c) measured_[c] = views[c].camera->model;
   measure_overlap(views);
   find_places(views);
+  known_ = {};
 }
 
 void PairOrder::measure_overlap(std::span<const CameraView> views) {
@@ -180,18 +181,28 @@ int PairOrder::largest_miss(int count, const Groups& groups) const {
   return total;
 }
 
+// All in one group where no groups do.
+PairOrder::Groups PairOrder::groups_for(int min_views,
+                                        const std::array<CameraSet, kMaxCameras>& done) const {
+  for (int count = min_views - 1; count > 1; --count) {
+    const Groups groups = grouped(count, done);
+    if (largest_miss(count, groups) < min_views) return groups;
+  }
+  return {};
+}
+
 void PairOrder::list(int min_views, const std::array<CameraSet, kMaxCameras>& done,
                      CameraPairs& pairs) {
   pairs.clear();
-  Groups groups{};
-  for (int count = min_views - 1; count > 1; --count) {
-    groups = grouped(count, done);
-    if (largest_miss(count, groups) < min_views) break;
-    groups = Groups{};
+  Known& known = known_[static_cast<std::size_t>(min_views)];
+  if (!known.any || known.seeing != seeing_ || known.done != done) {
+    known = {true, seeing_, done, groups_for(min_views, done)};
   }
   for (std::size_t a = 0; a < measured_count_; ++a) {
     for (std::size_t b = a + 1; b < measured_count_; ++b) {
-      if (!seeing_.contains(a) || !seeing_.contains(b) || groups[a] != groups[b]) continue;
+      if (!seeing_.contains(a) || !seeing_.contains(b) || known.groups[a] != known.groups[b]) {
+        continue;
+      }
       if (done[a].contains(b)) continue;
       pairs.push_back({static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b)});
     }

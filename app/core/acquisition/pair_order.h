@@ -37,11 +37,20 @@ class PairOrder {
  private:
   using Groups = std::array<std::uint8_t, kMaxCameras>;  // of each camera in seeing_
 
+  // What was found for as many views the last time: mostly the same cameras see something.
+  struct Known {
+    bool any = false;
+    CameraSet seeing;
+    std::array<CameraSet, kMaxCameras> done;
+    Groups groups{};
+  };
+
   void measure_overlap(std::span<const CameraView> views);
   void find_places(std::span<const CameraView> views);
   int cost_in(std::size_t camera, int group, const Groups& groups,
               const std::array<CameraSet, kMaxCameras>& done) const;
   Groups grouped(int groups, const std::array<CameraSet, kMaxCameras>& done) const;
+  Groups groups_for(int min_views, const std::array<CameraSet, kMaxCameras>& done) const;
   int largest_miss(int count, const Groups& groups) const;
 
   std::array<geometry::CameraModel, kMaxCameras> measured_{};  // what overlap_ is true of
@@ -49,6 +58,7 @@ class PairOrder {
   std::array<std::array<int, kMaxCameras>, kMaxCameras> overlap_{};
   std::array<std::uint8_t, kMaxCameras> place_{};  // cameras at one place have the same number
   CameraSet seeing_;
+  std::array<Known, kMaxCameras + 1> known_;  // by min_views
 };
 
 }  // namespace dottrack::acquisition

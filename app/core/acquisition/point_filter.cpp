@@ -111,23 +111,6 @@ void put(std::array<PointFilter::PerCamera, 3>& to, std::size_t camera,
   }
 }
 
-// CAHV is CAHVOR without distortion.
-bool as_cahvor(const geometry::CameraModel& model, geometry::Cahvor& cahvor) {
-  if (const auto* same = std::get_if<geometry::Cahvor>(&model)) {
-    cahvor = *same;
-    return true;
-  }
-  const auto* plain = std::get_if<geometry::Cahv>(&model);
-  if (plain == nullptr) return false;
-  cahvor.c = plain->c;
-  cahvor.a = plain->a;
-  cahvor.h = plain->h;
-  cahvor.v = plain->v;
-  cahvor.o = plain->a;
-  cahvor.r.setZero();
-  return true;
-}
-
 }  // namespace
 
 void PointFilter::start(std::span<const CameraView> views) {
@@ -145,7 +128,7 @@ void PointFilter::start(std::span<const CameraView> views) {
 
 bool PointFilter::set_camera(std::size_t camera, const core::Camera& seen) {
   geometry::Cahvor m;
-  if (!as_cahvor(seen.model, m)) return false;
+  if (!geometry::as_cahvor(seen.model, m)) return false;
   put(cameras_.centre, camera, m.c);
   put(cameras_.a, camera, m.a);
   put(cameras_.h, camera, m.h);

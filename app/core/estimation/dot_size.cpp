@@ -20,7 +20,7 @@ constexpr int kMinArea_px = 3;
 // How far a dot's bounding box may be from its ellipse's, and how much of that ellipse it may lack.
 // Of 29,000 rendered ellipses (3 to 30 px, axis ratio 0.2 to 1, blur of 0.3 to 1.2 px, contrast 8
 // to 50 times the noise, threshold at 0.3 to 0.6 of it) none is refused; the worst is 0.15 px below
-// the first limit and 0.07 px below the second, 999 in 1000 are 0.6 px and 0.16 px below.
+// the first limit and 0.07 px below the second, 999 in 1000 are 0.25 px and 0.16 px below.
 constexpr double kMaxBoxMisfit_px = 1.25;
 constexpr double kMaxBoxMisfitPart = 0.05;
 constexpr double kMaxLack_px = 0.6;

@@ -9,14 +9,28 @@ constexpr double kCentroidSigma_px = 0.1;
 
 }  // namespace
 
-bool make_sighting(const core::Camera& camera, const geometry::Optics& optics,
-                   const DiameterRange& diameter, const image::Region& region, Sighting& sighting) {
+bool describe_sighting(const core::Camera& camera, const geometry::Optics& optics,
+                       const DiameterRange& diameter, const image::Region& region,
+                       Sighting& sighting) {
   const geometry::AngularScale& scale = optics.at(region.centroid_px);
   if (scale.max_px <= 0.0) return false;
   sighting.window = possible_range(diameter, region.semi_major_px, scale,
                                    {camera.distance_min_m, camera.distance_max_m});
   if (sighting.window.empty()) return false;
-  if (geometry::unproject(camera.model, region.centroid_px, sighting.line.ray) !=
+  const double mean_px = scale.mean_px();
+  sighting.line.sigma_rad = kCentroidSigma_px / mean_px;
+  sighting.pixel = region.centroid_px;
+  sighting.semi_major_px = region.semi_major_px;
+  sighting.semi_minor_px = region.semi_minor_px;
+  sighting.angle_rad = region.angle_rad;
+  sighting.box_min_px = {region.x_min - 0.5, region.y_min - 0.5};
+  sighting.box_max_px = {region.x_max + 0.5, region.y_max + 0.5};
+  sighting.angular_diameter_rad = 2.0 * region.semi_major_px / mean_px;
+  return true;
+}
+
+bool add_line_of_sight(const core::Camera& camera, Sighting& sighting) {
+  if (geometry::unproject(camera.model, sighting.pixel, sighting.line.ray) !=
       geometry::OpticsStatus::ok) {
     return false;
   }
@@ -28,15 +42,13 @@ bool make_sighting(const core::Camera& camera, const geometry::Optics& optics,
     return false;
   }
   sighting.pixels_per_rad *= middle_m;
-  sighting.line.sigma_rad = kCentroidSigma_px / scale.mean_px();
-  sighting.pixel = region.centroid_px;
-  sighting.semi_major_px = region.semi_major_px;
-  sighting.semi_minor_px = region.semi_minor_px;
-  sighting.angle_rad = region.angle_rad;
-  sighting.box_min_px = {region.x_min - 0.5, region.y_min - 0.5};
-  sighting.box_max_px = {region.x_max + 0.5, region.y_max + 0.5};
-  sighting.angular_diameter_rad = 2.0 * region.semi_major_px / scale.mean_px();
   return true;
+}
+
+bool make_sighting(const core::Camera& camera, const geometry::Optics& optics,
+                   const DiameterRange& diameter, const image::Region& region, Sighting& sighting) {
+  return describe_sighting(camera, optics, diameter, region, sighting) &&
+         add_line_of_sight(camera, sighting);
 }
 
 }  // namespace dottrack::estimation

@@ -51,8 +51,17 @@ struct Sighting {
 
 using Sightings = StaticVector<Sighting, core::kMaxRegions>;
 
-// The region's line of sight; false when the lens has none there or no dot of the target could
-// look this size within the camera's distance limits.
+// What the geometry needs to know of a region, but for its line of sight: false when the lens has
+// none there or no dot of the target could look this size within the camera's distance limits.
+bool describe_sighting(const core::Camera& camera, const geometry::Optics& optics,
+                       const DiameterRange& diameter, const image::Region& region,
+                       Sighting& sighting);
+
+// Adds the line of sight; false when the lens has none there.
+bool add_line_of_sight(const core::Camera& camera, Sighting& sighting);
+
+// Both: the region's line of sight; false when the lens has none there or no dot of the target
+// could look this size within the camera's distance limits.
 bool make_sighting(const core::Camera& camera, const geometry::Optics& optics,
                    const DiameterRange& diameter, const image::Region& region, Sighting& sighting);
 

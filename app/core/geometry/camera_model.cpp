@@ -78,4 +78,15 @@ const Eigen::Vector3d& centre(const CameraModel& model) noexcept {
   return visit(model, [](const auto& m) -> const Eigen::Vector3d& { return m.c; });
 }
 
+bool as_cahvor(const CameraModel& model, Cahvor& cahvor) noexcept {
+  if (const auto* same = std::get_if<Cahvor>(&model)) {
+    cahvor = *same;
+    return true;
+  }
+  const auto* plain = std::get_if<Cahv>(&model);
+  if (plain == nullptr) return false;
+  cahvor = {plain->c, plain->a, plain->h, plain->v, plain->a, Eigen::Vector3d::Zero()};
+  return true;
+}
+
 }  // namespace dottrack::geometry

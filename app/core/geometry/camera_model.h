@@ -45,4 +45,7 @@ std::string_view class_name(const CameraModel& model) noexcept;
 // The point that distances from the camera are measured from: C, metres, world.
 const Eigen::Vector3d& centre(const CameraModel& model) noexcept;
 
+// The same camera as a CAHVOR model, which CAHV is without distortion; false for others.
+bool as_cahvor(const CameraModel& model, Cahvor& cahvor) noexcept;
+
 }  // namespace dottrack::geometry

@@ -47,7 +47,7 @@ TEST(PairOrder, NoCamerasAreWithoutAPair) {
     order.start(views);
     CameraPairs pairs;
     std::array<CameraSet, kMaxCameras> done{};
-    for (const int min_views : {4, 3, 2}) {
+    for (const int min_views : {6, 4, 3, 2}) {
       order.list(min_views, done, pairs);
       for (const CameraPair& pair : pairs) {
         EXPECT_LT(pair.a, pair.b);
