@@ -18,7 +18,7 @@ struct Band {
   int intensity_min_dn = 0;
   int intensity_max_dn = 255;
   int min_contrast_dn = 0;  // 0: the absolute band alone
-  int background_px = 21;   // odd, 3 to 255
+  int background_px = 21;   // odd, 3 to 255; rounded to tiles: see LocalBackground
   core::Polarity polarity = core::Polarity::bright;
 };
 
@@ -61,7 +61,8 @@ struct IdentifyCounts {
 
 // The scratch memory of identify: one object serves any number of images, one after another.
 // All of it is taken at construction. The results do not depend on the processor's SIMD
-// instructions: every decision on a pixel is integer arithmetic.
+// instructions: every decision on a pixel is integer arithmetic, with backgrounds that are rounded
+// alike everywhere.
 class Identifier {
  public:
   Identifier();
