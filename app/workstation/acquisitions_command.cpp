@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -32,11 +31,10 @@ int run(const std::vector<std::string>& files) {
     if (!trials) return complain(fmt::format("{}: {}", file, trials.error().message));
     all.insert(all.end(), trials->begin(), trials->end());
   }
+  if (const auto once = check_once(all); !once) return complain(once.error().message);
+  if (all.empty()) return complain("no placement in any file; expected lines of acquisitions.csv");
   fmt::print("{}", summary_text(all));
-  const bool wrong = std::any_of(all.begin(), all.end(), [](const Trial& trial) {
-    return trial.outcome == Outcome::wrong_lock;
-  });
-  return wrong ? kFailed : kDone;
+  return good(all) ? kDone : kFailed;
 }
 
 }  // namespace

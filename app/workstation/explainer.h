@@ -12,8 +12,8 @@
 
 namespace dottrack::workstation {
 
-// Ticks with a pose are passed over. A tick that says the same as the one before it is only
-// counted: "ticks 4 to 17: the same".
+// Ticks with a pose are passed over. Ticks in a row for the same reason, with the same cameras, are
+// told once, with the first one's numbers: "ticks 4 to 17: held_back still".
 class Explainer final : public telemetry::RecordWriter {
  public:
   // `say` takes whole lines.
@@ -24,7 +24,9 @@ class Explainer final : public telemetry::RecordWriter {
 
  private:
   void do_write(const telemetry::CycleRecord& record) override;
-  std::string about(const telemetry::CycleRecord& record) const;
+  std::string key_of(const core::TickResult& result) const;
+  std::string about(const core::TickResult& result);
+  std::string words(core::Reason reason);
   std::string camera_table(const core::TickResult& result) const;
   std::string camera_row(const std::string& name, const core::CameraTick& camera) const;
   std::string acquisition_lines(const core::TickResult& result) const;
@@ -33,9 +35,12 @@ class Explainer final : public telemetry::RecordWriter {
   std::size_t dots_;
   double max_false_lock_probability_;
   std::function<void(const std::string&)> say_;
-  std::string last_;  // about the tick before; empty when that had a pose
+  std::uint32_t explained_ = 0;  // reasons, a bit each
+  std::string last_;             // the key of the tick before; empty when that had a pose
+  core::Reason last_reason_ = core::Reason::none;
   std::uint64_t same_from_ = 0;
-  std::uint64_t same_ = 0;  // ticks from there on
+  std::uint64_t same_ = 0;    // ticks from there on
+  double least_false_ = 1.0;  // false-lock probability among them
 };
 
 }  // namespace dottrack::workstation

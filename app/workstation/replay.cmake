@@ -2,7 +2,7 @@
 find_package(PNG REQUIRED)
 dottrack_library(workstation_outputs
   SOURCES run_tally.cpp report_file.cpp canvas.cpp
-          bitmap_font.cpp explainer.cpp overlay.cpp reason_words.cpp
+          bitmap_font.cpp explainer.cpp json_object.cpp overlay.cpp reason_words.cpp
   USES dottrack::config dottrack::core dottrack::telemetry fmt::fmt PNG::PNG)
 target_compile_definitions(dottrack_workstation_outputs PRIVATE
   DOTTRACK_BUILD_TYPE="$<CONFIG>")

@@ -2,30 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "app/workstation/json_object.h"
+
 namespace dottrack::workstation {
 namespace {
 
-// An object whose members come in the order in which they are added.
-class Object {
- public:
-  explicit Object(int depth) : indent_(static_cast<std::size_t>(2 * depth), ' ') {}
-
-  template <class T>
-  void add(std::string_view key, const T& value) {
-    members_.push_back(fmt::format("{}  {}: {}", indent_, json_string(key), value));
-  }
-  std::string text() const {
-    return members_.empty() ? "{}"
-                            : fmt::format("{{\n{}\n{}}}", fmt::join(members_, ",\n"), indent_);
-  }
-
- private:
-  std::string indent_;
-  std::vector<std::string> members_;
-};
-
 std::string missing_frames(const config::RigConfig& rig, const telemetry::CycleCounters& counters) {
-  Object object(1);
+  JsonObject object(1);
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     object.add(rig.cameras[i].name, counters.missing_frames[i]);
   }
@@ -33,7 +16,7 @@ std::string missing_frames(const config::RigConfig& rig, const telemetry::CycleC
 }
 
 std::string reasons(const RunTally& tally) {
-  Object object(1);
+  JsonObject object(1);
   for (const auto& [reason, ticks] : tally.reasons()) object.add(reason, ticks);
   return object.text();
 }
@@ -43,7 +26,7 @@ std::string last_lock(const RunTally& tally) {
   const core::TickResult& lock = *tally.last_lock();
   const Eigen::Vector3d& p = lock.pose.position_m;
   const Eigen::Quaterniond& q = lock.pose.orientation;
-  Object object(1);
+  JsonObject object(1);
   object.add("tick", lock.tick);
   object.add("position_m", fmt::format("[{}, {}, {}]", p.x(), p.y(), p.z()));
   object.add("quaternion_xyzw", fmt::format("[{}, {}, {}, {}]", q.x(), q.y(), q.z(), q.w()));
@@ -54,7 +37,7 @@ std::string last_lock(const RunTally& tally) {
 }
 
 std::string memory(const RunFacts& facts) {
-  Object object(1);
+  JsonObject object(1);
   object.add("tracker", facts.tracker_bytes);
   object.add("record_ring", sizeof(telemetry::RecordRing));
   return object.text();
@@ -67,23 +50,10 @@ std::string times(const TimeFigures& figures) {
 
 }  // namespace
 
-std::string json_string(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (static_cast<unsigned char>(c) < 0x20) {
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
-}
-
 std::string report_json(const config::RigConfig& rig, const RunTally& tally,
                         const RunFacts& facts) {
   const telemetry::CycleCounters& counters = tally.last_record().counters;
-  Object report(0);
+  JsonObject report(0);
   report.add("rig", json_string(rig.name));
   report.add("target", json_string(rig.target_name));
   report.add("build_type", json_string(DOTTRACK_BUILD_TYPE));

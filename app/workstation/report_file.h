@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,8 +20,6 @@ struct RunFacts {
   // Further members, each a key and its value as JSON, in this order.
   std::vector<std::pair<std::string, std::string>> more;
 };
-
-std::string json_string(std::string_view text);
 
 std::string report_json(const config::RigConfig& rig, const RunTally& tally, const RunFacts& facts);
 

@@ -4,7 +4,8 @@ dottrack_library(workstation_figures
   USES dottrack::workstation_outputs)
 dottrack_library(workstation_sim
   SOURCES experiment_figures.cpp experiment_table.cpp experiments.cpp interrupt.cpp progress.cpp
-          sim_plots.cpp sim_run.cpp trial_file.cpp trial_summary.cpp trials.cpp
+          sim_plots.cpp sim_run.cpp trial.cpp trial_file.cpp
+          trial_summary.cpp trials.cpp
   USES dottrack::workstation_figures dottrack::workstation_replay dottrack::host_sim_scenarios
        dottrack::host_sim_hal dottrack::host_sim_survey)
 list(APPEND workstation_uses dottrack::workstation_sim)

@@ -33,6 +33,7 @@ struct SimCommand {
   std::uint64_t acquisitions = 0;
   std::uint64_t first = 0;
   int trial_ticks = TrialOptions{}.ticks;
+  double trial_speed_m_s = 0.0;
   bool fine = false;
   bool explain = false;
   unsigned threads = 0;
@@ -116,12 +117,6 @@ int run_scene(const host_sim::Scene& scene, const SimCommand& command) {
   return sim->good(scene) ? kDone : kFailed;
 }
 
-// Never a wrong lock; and, where there is something to lock on to, a right one.
-bool good(const host_sim::Scene& scene, const std::vector<Trial>& trials) {
-  const TrialSummary able = summary_of(trials, true);
-  return able.wrong + summary_of(trials, false).wrong == 0 && (!scene.vehicle || able.right > 0);
-}
-
 int run_placements(const host_sim::Scene& scene, const SimCommand& command) {
   const Interrupt interrupt;
   host_sim::SceneRenderer renderer(scene, command.threads);
@@ -132,6 +127,7 @@ int run_placements(const host_sim::Scene& scene, const SimCommand& command) {
   options.first = command.first;
   options.count = command.acquisitions;
   options.ticks = command.trial_ticks;
+  options.speed_m_s = command.trial_speed_m_s;
   options.detail = command.fine ? host_sim::Detail::full : host_sim::Detail::quick;
   options.go_on = [&](std::uint64_t done) {
     progress->show(done);
@@ -146,8 +142,9 @@ int run_placements(const host_sim::Scene& scene, const SimCommand& command) {
   fmt::print("{}", summary_text(run->trials));
   print_row("speed",
             fmt::format("{:.1f} acquisitions a second, rendering included", run->trials_per_s));
-  fmt::print("results: {} and calibration.csv\n", (command.out / "acquisitions.csv").string());
-  return good(scene, run->trials) ? kDone : kFailed;
+  fmt::print("results: {}, calibration.csv, report.json\n",
+             (command.out / "acquisitions.csv").string());
+  return good(run->trials) ? kDone : kFailed;
 }
 
 int run(const SimCommand& command) {
@@ -175,9 +172,14 @@ void add_trial_options(CLI::App& sub, SimCommand& command, CLI::Option& record) 
       ->check(CLI::Range(0, 1000000000))
       ->needs(acquisitions);
   sub.add_option("--trial-ticks", command.trial_ticks,
-                 "Ticks that each placement stands still for until there is a lock")
+                 "Ticks that each placement has until there must be a lock")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000))
+      ->needs(acquisitions);
+  sub.add_option("--speed", command.trial_speed_m_s,
+                 "Metres a second that the vehicle drives straight ahead meanwhile; 0: it stands")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 100.0))
       ->needs(acquisitions);
   sub.add_flag("--fine", command.fine,
                "Placements rendered with every shadow, as a run's ticks are; slower")

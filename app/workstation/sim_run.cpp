@@ -9,6 +9,7 @@
 
 #include "app/config/rig_file.h"
 #include "app/workstation/explainer.h"
+#include "app/workstation/json_object.h"
 #include "app/workstation/loop_files.h"
 #include "app/workstation/loop_run.h"
 #include "app/workstation/rig_warnings.h"
@@ -180,7 +181,6 @@ Result<SimSummary> simulate(const Scene& scene, host_sim::SceneRenderer& rendere
   }
   const Result<config::RigConfig> config = config::load_rig(rig / "rig.toml");
   if (!config) return tl::unexpected<Error>(config.error());
-  print_warnings(*config);
   Result<telemetry::OutputFile> truth_tum =
       telemetry::OutputFile::create(options.out / "truth.tum");
   if (!truth_tum) return tl::unexpected<Error>(truth_tum.error());
@@ -191,6 +191,7 @@ Result<SimSummary> simulate(const Scene& scene, host_sim::SceneRenderer& rendere
       return tl::unexpected<Error>(done.error());
     }
   }
+  print_warnings(*config);
   return simulation.run();
 }
 

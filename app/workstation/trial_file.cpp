@@ -7,13 +7,15 @@
 #include <cmath>
 #include <set>
 #include <string_view>
+#include <tuple>
 
 #include "app/workstation/trial_summary.h"
 
 namespace dottrack::workstation {
 namespace {
 
-constexpr std::size_t kFields = 14;
+constexpr std::size_t kFields = 21;
+constexpr int kReasons = 256;  // no more, of a byte
 using Fields = std::array<std::string_view, kFields>;
 
 bool split(std::string_view line, Fields& fields) {
@@ -47,31 +49,49 @@ bool read_word(std::string_view text, int count, Word& value) {
   return false;
 }
 
+bool read_candidate(std::string_view probability, std::string_view right, Trial& trial) {
+  if (probability.empty() != right.empty()) return false;
+  if (probability.empty()) return true;
+  Candidate candidate;
+  if (!read(probability, candidate.false_lock_probability)) return false;
+  candidate.right = right == "1";
+  trial.candidate = candidate;
+  return right == "0" || right == "1";
+}
+
+bool is_whole(const Trial& trial) {
+  const bool lock = trial.outcome == Outcome::right_lock || trial.outcome == Outcome::wrong_lock;
+  return lock == trial.locked();
+}
+
 bool read_trial(std::string_view line, Trial& trial) {
   Fields f;
   if (!split(line, f)) return false;
   double yaw_deg = 0.0;
-  bool good = read(f[0], trial.index) && read(f[1], trial.x_m) && read(f[2], trial.y_m) &&
-              read(f[3], yaw_deg) && read(f[4], trial.dots) && read(f[5], trial.dots_in_two_views);
-  good = good && read_word(f[7], 4, trial.outcome) && read_word(f[8], 16, trial.reason);
-  good = good && read_if_there(f[9], trial.lock_tick) && read_if_there(f[10], trial.position_mm) &&
-         read_if_there(f[11], trial.attitude_deg);
+  trial.scene = f[0];
+  bool good = read(f[1], trial.seed) && read(f[2], trial.index) && read(f[3], trial.x_m) &&
+              read(f[4], trial.y_m) && read(f[5], yaw_deg) && read(f[6], trial.dots) &&
+              read(f[7], trial.dots_in_two_views) && read(f[8], trial.dots_well_lit) &&
+              read(f[10], trial.ticks_allowed);
+  good = good && read_word(f[11], kOutcomes, trial.outcome) &&
+         read_word(f[12], kReasons, trial.reason);
+  good = good && read_if_there(f[13], trial.lock_tick) && read_if_there(f[14], trial.position_mm) &&
+         read_if_there(f[15], trial.attitude_deg) && read_if_there(f[16], trial.lock_probability);
   trial.yaw_rad = M_PI / 180.0 * yaw_deg;
-  if (!good || f[12].empty()) return good;
-  Candidate candidate;
-  if (!read(f[12], candidate.false_lock_probability)) return false;
-  candidate.right = f[13] == "1";
-  trial.candidate = candidate;
-  return true;
+  return good && read_candidate(f[17], f[18], trial) && read(f[19], trial.dots_matched) &&
+         read(f[20], trial.min_views) && is_whole(trial);
 }
 
 }  // namespace
 
 Result<std::vector<Trial>> trials_from_csv(const std::string& text) {
   std::vector<Trial> trials;
-  std::set<std::uint64_t> seen;
   const std::string header = trials_csv_header();
   std::string_view rest = text;
+  if (!rest.starts_with(header)) {
+    return fail(fmt::format("line 1: expected the header of an acquisitions.csv, {}...",
+                            header.substr(0, 24)));
+  }
   for (int number = 1; !rest.empty(); ++number) {
     const std::size_t end = rest.find('\n');
     const std::string_view line = rest.substr(0, end);
@@ -84,13 +104,19 @@ Result<std::vector<Trial>> trials_from_csv(const std::string& text) {
                       "the header",
                       number, kFields));
     }
-    if (!seen.insert(trial.index).second) {
-      return fail(fmt::format("line {}: index {} is there twice; expected each placement once",
-                              number, trial.index));
-    }
     trials.push_back(trial);
   }
   return trials;
+}
+
+Result<void> check_once(std::span<const Trial> trials) {
+  std::set<std::tuple<std::string_view, std::uint64_t, std::uint64_t>> seen;
+  for (const Trial& trial : trials) {
+    if (seen.emplace(trial.scene, trial.seed, trial.index).second) continue;
+    return fail(fmt::format("placement {} of {}, seed {}, is there twice; expected each once",
+                            trial.index, trial.scene, trial.seed));
+  }
+  return {};
 }
 
 }  // namespace dottrack::workstation

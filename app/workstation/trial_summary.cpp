@@ -9,27 +9,40 @@ namespace dottrack::workstation {
 namespace {
 
 constexpr std::string_view kHeader =
-    "index,x_m,y_m,yaw_deg,dots,dots_in_two_views,lockable,outcome,reason,lock_tick,position_mm,"
-    "attitude_deg,candidate_false_lock_probability,candidate_right\n";
+    "scene,seed,index,x_m,y_m,yaw_deg,dots,dots_in_two_views,dots_well_lit,lockable,ticks_allowed,"
+    "outcome,reason,"
+    "lock_tick,position_mm,attitude_deg,false_lock_probability,candidate_false_lock_probability,"
+    "candidate_right,dots_matched,min_views\n";
+
+constexpr std::string_view kRow = "  {:<44} {:>8} {:>8} {:>9} {:>8} {:>10} {:>8}\n";
 
 std::string heading() {
-  return fmt::format("  {:<42} {:>8} {:>8} {:>9} {:>8} {:>9} {:>8}\n", "random placements", "all",
-                     "right", "right %", "wrong", "held back", "none");
+  return fmt::format(kRow, "random placements", "all", "right", "right %", "wrong", "held back",
+                     "none");
+}
+
+std::string percent(std::uint64_t part, std::uint64_t all) {
+  return all == 0
+             ? ""
+             : fmt::format("{:.2f}", 100.0 * static_cast<double>(part) / static_cast<double>(all));
 }
 
 std::string rows(const TrialSummary& s, const std::string& title) {
-  const std::string share = s.placements == 0
-                                ? ""
-                                : fmt::format("{:.2f}", 100.0 * static_cast<double>(s.right) /
-                                                            static_cast<double>(s.placements));
-  std::string text = fmt::format("  {:<42} {:>8} {:>8} {:>9} {:>8} {:>9} {:>8}\n", title,
-                                 s.placements, s.right, share, s.wrong, s.held_back, s.none);
-  for (const auto& [ticks, count] : s.right_after_ticks) {
-    text += fmt::format("      {:<38} {:>17}\n",
-                        fmt::format("right after {} tick{}", ticks, ticks == 1 ? "" : "s"), count);
+  std::string text = fmt::format(kRow, title, s.placements, s.right, percent(s.right, s.placements),
+                                 s.wrong, s.held_back, s.none);
+  if (s.right > 0) {
+    const auto row = [&](const std::string& name, std::uint64_t count) {
+      text += fmt::format(kRow, "    " + name, "", count, percent(count, s.placements), "", "", "");
+    };
+    row("right in the first tick", s.right_in_first_tick);
+    row(fmt::format("right later, within {} ticks", s.ticks_allowed),
+        s.right - s.right_in_first_tick);
   }
-  for (const auto& [reason, count] : s.reasons) {
-    text += fmt::format("      no lock: {:<67} {:>17}\n", reason, count);
+  for (const auto& [why, count] : s.reasons) {
+    const bool held = why.first == Outcome::held_back;
+    text +=
+        fmt::format(kRow, fmt::format("    no lock: {}", core::to_string(why.second)), "", "", "",
+                    "", held ? std::to_string(count) : "", held ? "" : std::to_string(count));
   }
   return text;
 }
@@ -68,6 +81,47 @@ std::string calibration_text(std::span<const Trial> trials) {
   return text + row("all", all);
 }
 
+void add(const Trial& trial, TrialSummary& summary) {
+  ++summary.placements;
+  summary.ticks_allowed = std::max(summary.ticks_allowed, trial.ticks_allowed);
+  switch (trial.outcome) {
+    case Outcome::right_lock:
+      ++summary.right;
+      if (trial.lock_tick == 0) ++summary.right_in_first_tick;
+      break;
+    case Outcome::wrong_lock:
+      ++summary.wrong;
+      break;
+    case Outcome::held_back:
+      ++summary.held_back;
+      break;
+    case Outcome::no_lock:
+      ++summary.none;
+      break;
+  }
+  if (!trial.locked()) ++summary.reasons[{trial.outcome, trial.reason}];
+}
+
+std::string json_of(const TrialSummary& s) {
+  JsonObject reasons(2);
+  for (const Outcome outcome : {Outcome::held_back, Outcome::no_lock}) {
+    JsonObject of_outcome(3);
+    for (const auto& [why, count] : s.reasons) {
+      if (why.first == outcome) of_outcome.add(core::to_string(why.second), count);
+    }
+    reasons.add(to_string(outcome), of_outcome.text());
+  }
+  JsonObject object(1);
+  object.add("placements", s.placements);
+  object.add("right", s.right);
+  object.add("right_in_first_tick", s.right_in_first_tick);
+  object.add("wrong", s.wrong);
+  object.add("held_back", s.held_back);
+  object.add("none", s.none);
+  object.add("reasons", reasons.text());
+  return object.text();
+}
+
 std::size_t decade_of(double probability) {
   const double decades = probability > 0.0 ? std::floor(-std::log10(probability)) : 1e9;
   return static_cast<std::size_t>(
@@ -79,26 +133,34 @@ std::size_t decade_of(double probability) {
 TrialSummary summary_of(std::span<const Trial> trials, bool lockable) {
   TrialSummary summary;
   for (const Trial& trial : trials) {
-    if (trial.lockable() != lockable) continue;
-    ++summary.placements;
-    switch (trial.outcome) {
-      case Outcome::right_lock:
-        ++summary.right;
-        ++summary.right_after_ticks[trial.lock_tick + 1];
-        break;
-      case Outcome::wrong_lock:
-        ++summary.wrong;
-        break;
-      case Outcome::held_back:
-        ++summary.held_back;
-        break;
-      case Outcome::no_lock:
-        ++summary.none;
-        break;
-    }
-    if (!trial.locked()) ++summary.reasons[std::string(core::to_string(trial.reason))];
+    if (trial.lockable() == lockable) add(trial, summary);
   }
   return summary;
+}
+
+TrialSummary summary_of_well_lit(std::span<const Trial> trials) {
+  TrialSummary summary;
+  for (const Trial& trial : trials) {
+    if (trial.well_lit()) add(trial, summary);
+  }
+  return summary;
+}
+
+bool good(std::span<const Trial> trials) {
+  const TrialSummary able = summary_of(trials, true);
+  return able.wrong + summary_of(trials, false).wrong == 0 &&
+         (able.placements == 0 || able.right > 0);
+}
+
+LockDoubt doubt_of_locks(std::span<const Trial> trials) {
+  LockDoubt doubt;
+  for (const Trial& trial : trials) {
+    if (!trial.locked()) continue;
+    ++doubt.locks;
+    doubt.expected_wrong += trial.lock_probability;
+    doubt.wrong += trial.outcome == Outcome::wrong_lock ? 1U : 0U;
+  }
+  return doubt;
 }
 
 std::array<CalibrationBin, kCalibrationDecades> calibration_of(std::span<const Trial> trials) {
@@ -118,10 +180,37 @@ std::array<CalibrationBin, kCalibrationDecades> calibration_of(std::span<const T
 }
 
 std::string summary_text(std::span<const Trial> trials) {
-  return heading() + rows(summary_of(trials, true), "enough dots in two views to lock on to") +
-         rows(summary_of(trials, false), "too few") +
-         "how often the first candidate was a wrong one, by the tracker's own estimate\n" +
+  const LockDoubt doubt = doubt_of_locks(trials);
+  return heading() + rows(summary_of(trials, true), "lockable: enough dots truly in two views") +
+         rows(summary_of_well_lit(trials), "of these: enough of them well lit") +
+         rows(summary_of(trials, false), "the others") +
+         fmt::format("of {} locks, {:.2g} wrong by the tracker's own estimate; {} were\n",
+                     doubt.locks, doubt.expected_wrong, doubt.wrong) +
+         "how often the first candidate, held back or not, was a wrong one, by the same "
+         "estimate\n" +
          calibration_text(trials);
+}
+
+void add_summary(std::span<const Trial> trials, JsonObject& report) {
+  report.add("placements", trials.size());
+  report.add("lockable", json_of(summary_of(trials, true)));
+  report.add("well_lit", json_of(summary_of_well_lit(trials)));
+  report.add("others", json_of(summary_of(trials, false)));
+  const LockDoubt doubt = doubt_of_locks(trials);
+  report.add("locks", doubt.locks);
+  report.add("wrong_locks", doubt.wrong);
+  report.add("wrong_locks_expected", doubt.expected_wrong);
+  std::uint64_t candidates = 0;
+  std::uint64_t wrong = 0;
+  double expected = 0.0;
+  for (const CalibrationBin& bin : calibration_of(trials)) {
+    candidates += bin.candidates;
+    wrong += bin.wrong;
+    expected += bin.expected_wrong;
+  }
+  report.add("candidates", candidates);
+  report.add("wrong_candidates", wrong);
+  report.add("wrong_candidates_expected", expected);
 }
 
 std::string trials_csv_header() {
@@ -134,13 +223,14 @@ std::string csv_line(const Trial& t) {
   };
   const auto rounded = [&](double value) { return t.locked() ? fmt::format("{:.4f}", value) : ""; };
   const Candidate candidate = t.candidate.value_or(Candidate{});
-  return fmt::format("{},{:.4f},{:.4f},{:.2f},{},{},{},{},{},{},{},{},{},{}\n", t.index, t.x_m,
-                     t.y_m, 180.0 / M_PI * t.yaw_rad, t.dots, t.dots_in_two_views,
-                     t.lockable() ? 1 : 0, to_string(t.outcome), core::to_string(t.reason),
-                     known(t.locked(), t.lock_tick), rounded(t.position_mm),
-                     rounded(t.attitude_deg),
-                     known(t.candidate.has_value(), candidate.false_lock_probability),
-                     known(t.candidate.has_value(), candidate.right ? 1 : 0));
+  return fmt::format(
+      "{},{},{},{:.4f},{:.4f},{:.2f},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", t.scene,
+      t.seed, t.index, t.x_m, t.y_m, 180.0 / M_PI * t.yaw_rad, t.dots, t.dots_in_two_views,
+      t.dots_well_lit, t.lockable() ? 1 : 0, t.ticks_allowed, to_string(t.outcome),
+      core::to_string(t.reason), known(t.locked(), t.lock_tick), rounded(t.position_mm),
+      rounded(t.attitude_deg), known(t.locked(), t.lock_probability),
+      known(t.candidate.has_value(), candidate.false_lock_probability),
+      known(t.candidate.has_value(), candidate.right ? 1 : 0), t.dots_matched, t.min_views);
 }
 
 std::string calibration_csv(std::span<const Trial> trials) {

@@ -4,40 +4,18 @@
 #include <array>
 #include <cmath>
 
-#include "host_sim/world/portable_math.h"
+#include "host_sim/scenarios/dot_disc.h"
 
 namespace dottrack::host_sim {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kRim = 8;            // points on a dot's edge that are looked at
-constexpr int kHiddenOfRim = 2;    // so many may be hidden
-constexpr double kLift_m = 0.002;  // off the face that a dot is painted on
-
-struct Disc {
-  Vector3d middle;
-  Vector3d normal;
-  std::array<Vector3d, kRim> rim;
-};
-
-Disc disc_of(const TargetDot& dot, const Pose& vehicle) {
-  Disc disc;
-  disc.normal = vehicle.rotation * dot.normal;
-  disc.middle = vehicle.to_world(dot.centre_m) + kLift_m * disc.normal;
-  const Vector3d u = disc.normal.unitOrthogonal();
-  const Vector3d v = disc.normal.cross(u);
-  for (int i = 0; i < kRim; ++i) {
-    const double angle = 2.0 * kPi * i / kRim;
-    disc.rim[static_cast<std::size_t>(i)] =
-        disc.middle + 0.5 * dot.diameter_m * (cosine(angle) * u + sine(angle) * v);
-  }
-  return disc;
-}
+constexpr int kHiddenOfRim = 2;  // of kRimPoints, so many may be hidden
 
 // All of the rim in the picture, and far enough apart.
 bool shows_large_enough(const SimCamera& camera, const Disc& disc) {
-  std::array<Eigen::Vector2d, kRim> pixels;
+  std::array<Eigen::Vector2d, kRimPoints> pixels;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     if (!in_picture(camera, disc.rim[i])) return false;
     pixels[i] = *camera.project(disc.rim[i]);
@@ -48,31 +26,6 @@ bool shows_large_enough(const SimCamera& camera, const Disc& disc) {
   }
   return widest_px >= kSmallestDot_px;
 }
-
-class Obstacles {
- public:
-  Obstacles(const Hall& hall, std::span<const MovingBody> bodies, double time_s) : hall_(hall) {
-    for (const MovingBody& body : bodies) {
-      if (const auto pose = (*body.motion)(time_s)) placed_.push_back({body.scene, *pose});
-    }
-  }
-
-  bool hidden(const Vector3d& eye, const Vector3d& p) const {
-    if (hall_.scene.blocked(eye, p)) return true;
-    return std::any_of(placed_.begin(), placed_.end(), [&](const Placed& body) {
-      return body.scene->blocked(body.pose.to_body(eye), body.pose.to_body(p));
-    });
-  }
-
- private:
-  struct Placed {
-    const RayScene* scene;
-    Pose pose;
-  };
-
-  const Hall& hall_;
-  std::vector<Placed> placed_;
-};
 
 bool sees(const SimCamera& camera, const Disc& disc, const Obstacles& obstacles) {
   const Vector3d& eye = camera.centre_m();

@@ -68,7 +68,7 @@ double distinctness_m(const TargetLayout& layout) {
 
 TargetLayout demo_layout() {
   return {on_deck({0.20, 0.68}), on_deck({-0.08, -0.66}), on_deck({-0.64, 0.02}),
-          on_deck({0.30, -0.30}), on_deck({-0.20, 0.34})};
+          on_deck({0.30, -0.30}), on_deck({-0.26, 0.30})};
 }
 
 TargetLayout random_layout(int dots, std::uint64_t seed) {

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,15 @@ struct ProgramRun {
   std::string out;
   std::string err;
 };
+
+// Whether a command said no more on standard error than what it doubts of its input.
+inline bool only_warnings(const std::string& err) {
+  std::istringstream lines(err);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("dottrack: warning: ")) return false;
+  }
+  return true;
+}
 
 using AddCommand = std::function<void(CLI::App&, int&)>;
 

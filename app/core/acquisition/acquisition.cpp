@@ -21,7 +21,9 @@ constexpr std::array<int, 4> kViewLayers = {6, 4, 3, 2};
 constexpr double kClearlyLess = 0.5;
 
 // Work to weigh one dot of a candidate, by finalist: each may be clutter near it.
-constexpr std::uint64_t kUnitsToWeigh = 2;
+constexpr std::uint64_t kUnitsToWeigh = 1;
+// At the most it fits into a tick's budget of 200,000.
+static_assert(kUnitsToWeigh * core::kMaxFinalists * core::kMaxDots <= 150'000);
 
 double sum_of_squared_edge_errors(const TargetShape& shape, std::span<const Witness> witnesses) {
   double sum = 0.0;
@@ -182,6 +184,7 @@ bool Acquisition::select(WorkBudget& budget) {
   Selection selected;
   const SelectStatus status = m.selector.advance(budget, selected);
   if (status == SelectStatus::work_budget) return false;
+  if (status == SelectStatus::found && !budget.fits(units_to_weigh(selected))) return false;
   core::Reason reason = status == SelectStatus::only_upside_down ? core::Reason::upside_down
                                                                  : core::Reason::no_matching_subset;
   if (status == SelectStatus::found) {
@@ -262,6 +265,7 @@ bool Acquisition::find_rival(WorkBudget& budget) {
   Selection selected;
   const SelectStatus status = m.selector.advance(budget, selected);
   if (status == SelectStatus::work_budget) return false;
+  if (status == SelectStatus::found && !budget.fits(units_to_weigh(selected))) return false;
   if (status == SelectStatus::found) {
     const Selection rival = m.to_finalists(selected);
     if (make_lock(rival, budget, m.rival) == core::Reason::none) add_rival(m.rival);
@@ -304,6 +308,10 @@ void Acquisition::judge() {
   go_on_with_fewer();
 }
 
+std::uint64_t Acquisition::units_to_weigh(const Selection& selection) const {
+  return kUnitsToWeigh * memory_->search.finalists().size() * selection.dots;
+}
+
 // 3.1.5
 core::Reason Acquisition::make_lock(const Selection& selection, WorkBudget& budget,
                                     CandidateLock& lock) const {
@@ -318,7 +326,7 @@ core::Reason Acquisition::make_lock(const Selection& selection, WorkBudget& budg
   const core::Reason reason = estimation::reason_of(estimation::locate(
       rig_->target, as_span(dots), rig_->limits.max_rms_residual_m, nullptr, lock.pose));
   if (reason != core::Reason::none) return reason;
-  budget.spend(kUnitsToWeigh * finalists.size() * selection.dots);
+  budget.spend(units_to_weigh(selection));
   lock.log_odds =
       log_odds_of_lock(lock.pose, as_span(lock.witnesses)) + ellipse_evidence(selection, lock.pose);
   return core::Reason::none;

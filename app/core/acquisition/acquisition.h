@@ -80,6 +80,7 @@ class Acquisition {
 
   void note(core::Reason reason);
   void add_rival(const CandidateLock& rival);
+  std::uint64_t units_to_weigh(const Selection& selection) const;
   core::Reason make_lock(const Selection& selection, WorkBudget& budget, CandidateLock& lock) const;
   double ellipse_evidence(const Selection& selection, const core::Pose& pose) const;
   double rival_score() const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <bitset>
 #include <cmath>
 #include <limits>
 
@@ -33,20 +34,39 @@ constexpr double kLargestSize = 2.0;
 // How much the belief that clutter may have any size weighs against what is there.
 constexpr double kAnySize = 4.0;
 
-bool share_a_sighting(const Finalist& a, const Finalist& b) {
-  unsigned both = a.cameras.bits() & b.cameras.bits();
-  for (; both != 0; both &= both - 1) {
-    const auto camera = static_cast<std::size_t>(std::countr_zero(both));
-    if (a.sighting[camera] == b.sighting[camera]) return true;
+// The sightings of a candidate's finalists, to ask quickly whether another has one of them.
+class OwnSightings {
+ public:
+  OwnSightings(std::span<const Witness> witnesses, std::span<const Finalist> finalists) {
+    for (const Witness& w : witnesses) {
+      if (w.finalist < finalists.size()) add(finalists[w.finalist]);
+    }
   }
-  return false;
-}
 
-bool is_splinter(const Finalist& finalist, std::span<const Witness> witnesses,
-                 std::span<const Finalist> finalists) {
+  bool any_of(const Finalist& finalist) const {
+    for (unsigned left = finalist.cameras.bits() & cameras_; left != 0; left &= left - 1) {
+      const auto camera = static_cast<std::size_t>(std::countr_zero(left));
+      if (own_[camera].test(finalist.sighting[camera])) return true;
+    }
+    return false;
+  }
+
+ private:
+  void add(const Finalist& finalist) {
+    for (unsigned left = finalist.cameras.bits(); left != 0; left &= left - 1) {
+      const auto camera = static_cast<std::size_t>(std::countr_zero(left));
+      own_[camera].set(finalist.sighting[camera]);
+    }
+    cameras_ |= finalist.cameras.bits();
+  }
+
+  unsigned cameras_ = 0;
+  std::array<std::bitset<core::kMaxRegions>, kMaxCameras> own_{};
+};
+
+bool is_close(const Finalist& finalist, std::span<const Witness> witnesses) {
   return std::any_of(witnesses.begin(), witnesses.end(), [&](const Witness& w) {
-    return (finalist.position_m - w.position_m).squaredNorm() <= w.diameter_m * w.diameter_m ||
-           (w.finalist < finalists.size() && share_a_sighting(finalist, finalists[w.finalist]));
+    return (finalist.position_m - w.position_m).squaredNorm() <= w.diameter_m * w.diameter_m;
   });
 }
 
@@ -81,8 +101,9 @@ Clutter::Clutter(const core::Target& target, std::span<const Witness> witnesses,
     near_.back().as_many.views = w.views;
   }
   set_room(finalists);
+  const OwnSightings own(witnesses, finalists);
   for (const Finalist& f : finalists) {
-    if (!is_splinter(f, witnesses, finalists)) take(f);
+    if (!own.any_of(f) && !is_close(f, witnesses)) take(f);
   }
 }
 

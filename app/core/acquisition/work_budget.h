@@ -16,6 +16,9 @@ class WorkBudget {
     return spent_ <= limit_;
   }
   bool exhausted() const { return spent_ > limit_; }
+  // Whether a step of so many units, which is never left in its middle, should begin now: it does
+  // not overdraw the budget, or there will never be more left than now.
+  bool fits(std::uint64_t units) const { return spent_ == 0 || spent_ + units <= limit_; }
   std::uint64_t spent() const { return spent_; }
 
  private:

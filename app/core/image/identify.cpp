@@ -42,13 +42,12 @@ Window clipped(const Window& window, const ImageView& image) {
           std::min(window.x_max, image.width_px - 1), std::min(window.y_max, image.height_px - 1)};
 }
 
-// Without a local background, a pixel weighs one more than its distance from the near end of the
-// band.
-PixelWeights band_weights(const ImageView& pixels, const Band& band) {
-  if (band.polarity == core::Polarity::bright) {
-    return {pixels, 1, 1 - std::max(band.intensity_min_dn, 0)};
-  }
-  return {pixels, -1, 1 + std::min(band.intensity_max_dn, 255)};
+// With thresholds, a pixel's value is by how much it goes beyond its own. Without, a pixel weighs
+// one more than its distance from the near end of the band.
+PixelWeights weights_of(const Band& band) {
+  if (band.min_contrast_dn > 0) return {1, 0};
+  if (band.polarity == core::Polarity::bright) return {1, 1 - std::max(band.intensity_min_dn, 0)};
+  return {-1, 1 + std::min(band.intensity_max_dn, 255)};
 }
 
 }  // namespace
@@ -57,6 +56,9 @@ struct Identifier::Memory {
   // Candidates are measured a few at a time: the arithmetic of one is awaited behind the others'.
   static constexpr std::size_t kBatch = Moments::kCapacity;
 
+  Thresholds thresholds_of(const Search& search) const {
+    return search.has_background() ? background.thresholds() : Thresholds{};
+  }
   void find_components(const Search& search);
   void take_rows(int y_end);
   IdentifyCounts pick_regions(const Search& search, const RegionGate& gate, Regions& regions);
@@ -85,19 +87,19 @@ void Identifier::Memory::take_rows(int y_end) {
 
 // A few rows at a time: while runs are sought in them, the next ones come from memory.
 void Identifier::Memory::find_components(const Search& search) {
-  constexpr int kRowsAtATime = 16;
+  constexpr int kRowsAtATime = LocalBackground::kRowsAtATime;
   const int height = search.height_px();
   bitmap.reshape(search.width_px(), height);
   runs.clear();
   components.clear();
+  if (search.has_background()) background.start(search.image, search.window, search.band);
+  const Thresholds thresholds = thresholds_of(search);
   for (int y = 0; y < height; y += kRowsAtATime) {
     const int y_end = std::min(y + kRowsAtATime, height);
-    fill_band_rows(search.image, search.window, search.band, y, y_end, bitmap);
-    if (!search.has_background()) take_rows(y_end < height ? y_end - 1 : height);
+    if (search.has_background()) background.extend(y_end);
+    fill_band_rows(search.image, search.window, search.band, thresholds, y, y_end, bitmap);
+    take_rows(y_end < height ? y_end - 1 : height);
   }
-  if (!search.has_background()) return;
-  background.keep_contrast(search.image, search.window, search.band, bitmap);
-  take_rows(height);
 }
 
 // The next candidates that the cheap gates let through; returns how many.
@@ -120,26 +122,20 @@ std::size_t Identifier::Memory::next_batch(const SizeBounds& bounds, std::size_t
 IdentifyCounts Identifier::Memory::pick_regions(const Search& search, const RegionGate& gate,
                                                 Regions& regions) {
   const ImageView pixels = search.pixels();
-  const core::Polarity polarity = search.band.polarity;
-  const PixelWeights weights = search.has_background() ? PixelWeights{background.excess(), 1, 0}
-                                                       : band_weights(pixels, search.band);
+  const PixelWeights weights = weights_of(search.band);
+  const Thresholds thresholds = thresholds_of(search);
+  const SumsOf of{pixels, thresholds, search.band.polarity, runs, components};
   const SizeBounds bounds(gate);
   IdentifyCounts counts;
   counts.runs = static_cast<std::uint32_t>(runs.size());
   counts.overflow_runs = runs.overflow();
   std::size_t next = 0;
   while (const std::size_t count = next_batch(bounds, next, counts)) {
-    sum_regions({pixels, weights.values, polarity, runs, components}, {batch.data(), count},
-                batch_sums.data());
-    measure({batch_sums.data(), count}, weights, moments);
-    judge({search.image,
-           search.window,
-           polarity,
-           components,
-           {batch.data(), count},
-           {batch_sums.data(), count},
-           moments},
-          gate, regions, counts);
+    const std::span<const std::uint32_t> which{batch.data(), count};
+    const std::span<RegionSums> sums{batch_sums.data(), count};
+    sum_regions(of, which, sums.data());
+    measure(sums, weights, moments);
+    judge({search.image, search.window, of, weights, which, sums, moments}, gate, regions, counts);
   }
   return counts;
 }

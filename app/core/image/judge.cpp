@@ -62,18 +62,30 @@ void set_ellipse(Region& region, const Moments& moments, std::size_t i) {
   region.box_misfit_px = moments.box_misfit[i];
 }
 
+// In the image, of the weighted pixels.
+Eigen::Vector2d centroid_of(const Candidates& of, const Component& component, std::size_t i) {
+  const Eigen::Vector2d corner(of.window.x_min + component.x_min,
+                               of.window.y_min + component.y_min);
+  if (of.sums[i].has_values) return corner + Eigen::Vector2d(of.moments.x[i], of.moments.y[i]);
+  sum_values(of.of, component, of.sums[i]);
+  return corner + centroid(of.sums[i], of.weights);
+}
+
 void judge_one(const Candidates& of, const RegionGate& gate, std::size_t i, Regions& regions,
                IdentifyCounts& counts) {
-  const Component& component = of.components[of.which[i]];
-  const RegionSums& sums = of.sums[i];
+  const Component& component = of.of.components[of.which[i]];
   if (!passes_size(gate, component.area_px, of.moments, i)) {
     ++counts.rejected_size;
     return;
   }
-  const Eigen::Vector2d centroid_px(of.window.x_min + component.x_min + of.moments.x[i],
-                                    of.window.y_min + component.y_min + of.moments.y[i]);
-  const double contrast_dn = core_contrast(of.image, centroid_px, sums.faintest_dn, of.polarity);
-  if (!passes_shape(gate, of.moments, i) || contrast_dn < gate.min_core_contrast_dn) {
+  if (!passes_shape(gate, of.moments, i)) {
+    ++counts.rejected_shape;
+    return;
+  }
+  const Eigen::Vector2d centroid_px = centroid_of(of, component, i);
+  const RegionSums& sums = of.sums[i];
+  const double contrast_dn = core_contrast(of.image, centroid_px, sums.faintest_dn, of.of.polarity);
+  if (contrast_dn < gate.min_core_contrast_dn) {
     ++counts.rejected_shape;
     return;
   }

@@ -16,14 +16,15 @@ namespace dottrack::image {
 struct Candidates {
   const ImageView& image;
   const Window& window;
-  core::Polarity polarity;
-  const Components& components;
+  const SumsOf& of;
+  const PixelWeights& weights;
   std::span<const std::uint32_t> which;
-  std::span<const RegionSums> sums;
+  std::span<RegionSums> sums;
   const Moments& moments;
 };
 
-// Appends those that pass the gate to the regions, and counts where each went.
+// Appends those that pass the gate to the regions, and counts where each went. Values that were
+// left out are summed where the outline may be a dot's.
 void judge(const Candidates& candidates, const RegionGate& gate, Regions& regions,
            IdentifyCounts& counts);
 

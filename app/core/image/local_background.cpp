@@ -4,84 +4,114 @@
 
 namespace dottrack::image {
 
-void LocalBackground::start(const ImageView& image, const Window& window, const Band& band) {
-  window_ = window;
-  width_px_ = window.x_max - window.x_min + 1;
-  height_px_ = window.y_max - window.y_min + 1;
-  stride_ = (width_px_ + Bitmap::kWordBits - 1) / Bitmap::kWordBits;
-  stride_ *= Bitmap::kWordBits;
-  radius_ = std::clamp(band.background_px / 2, 1, kMaxRadius);
-  x_first_ = std::max(window.x_min - radius_, 0);
-  x_last_ = std::min(window.x_max + radius_, image.width_px - 1);
-  rows_ = 0;
-  flip_ = band.polarity == core::Polarity::bright ? 0x00 : 0xFF;
-  std::fill_n(nothing_.begin(), image.width_px, flip_);
-  std::fill_n(column_sums_.begin(), width_px_ + 2 * radius_ + kPad, 0);
-  const int x = x_first_ - window.x_min + radius_;
-  for (int y = window.y_min - radius_ - 1; y < window.y_min + radius_; ++y) {
-    slide_columns(columns_of(image, y), nothing_.data(), flip_, x_last_ - x_first_ + 1,
-                  column_sums_.data() + x);
-  }
-}
-
-const std::uint8_t* LocalBackground::columns_of(const ImageView& image, int y) const {
-  return y < 0 || y >= image.height_px ? nothing_.data() : image.row(y) + x_first_;
-}
-
-// From the boxes of the row above to those of row y.
-void LocalBackground::slide_to(const ImageView& image, int y) {
-  const int x = x_first_ - window_.x_min + radius_;
-  slide_columns(columns_of(image, y + radius_), columns_of(image, y - radius_ - 1), flip_,
-                x_last_ - x_first_ + 1, column_sums_.data() + x);
-  running_totals(column_sums_.data(), width_px_ + 2 * radius_, totals_.data());
-  count_pixels(image, y);
-}
-
-void LocalBackground::count_pixels(const ImageView& image, int y) {
-  const int rows = std::min(y + radius_, image.height_px - 1) - std::max(y - radius_, 0) + 1;
-  if (rows == rows_) return;
-  rows_ = rows;
-  for (int i = 0; i < width_px_; ++i) {
-    const int x = window_.x_min + i;
-    const int columns = std::min(x + radius_, image.width_px - 1) - std::max(x - radius_, 0) + 1;
-    counts_[static_cast<std::size_t>(i)] = rows * columns;
-    per_count_[static_cast<std::size_t>(i)] = 1.0F / static_cast<float>(rows * columns);
-  }
-}
-
 namespace {
 
-// Of the words that were listed.
-void drop_empty_words(Bitmap& bitmap) {
-  const std::span<const PixelKey> listed = bitmap.occupied();
-  bitmap.set_occupied_end(listed.data());
-  PixelKey* end = bitmap.occupied_end();
-  for (const PixelKey key : listed) {
-    *end = key;
-    end += *bitmap.word(key) != 0;
-  }
-  bitmap.set_occupied_end(end);
+// The last column (row) of tiles whose middle is not right of (below) a pixel.
+int tile_before(int pixel) {
+  return (pixel + kTile_px / 2) / kTile_px - 1;
+}
+
+int middle_px(int tile) {
+  return tile * kTile_px + kTile_px / 2;
+}
+
+// How many pixels of an image so long the tiles lie on that are near one.
+int covered_px(int tile, int reach, int length_px) {
+  return std::min((tile + reach + 1) * kTile_px, length_px) -
+         std::max((tile - reach) * kTile_px, 0);
+}
+
+Needed needed_by(const Band& band) {
+  const bool bright = band.polarity == core::Polarity::bright;
+  const int end_dn = bright ? band.intensity_min_dn : 255 - band.intensity_max_dn;
+  return {static_cast<std::uint8_t>(std::min(band.min_contrast_dn, 256) - 1),
+          static_cast<std::uint8_t>(std::max(end_dn - 1, 0)),
+          static_cast<Flip>(bright ? 0x00 : 0xFF)};
 }
 
 }  // namespace
 
-void LocalBackground::keep_contrast(const ImageView& image, const Window& window, const Band& band,
-                                    Bitmap& bitmap) {
-  start(image, window, band);
-  const int contrast_dn = std::min(band.min_contrast_dn, 256);
-  for (int y = 0; y < height_px_; ++y) {
-    slide_to(image, window.y_min + y);
-    const BoxRow row{image.row(window.y_min + y) + window.x_min,
-                     image.width_px - window.x_min,
-                     flip_,
-                     contrast_dn,
-                     totals_.data(),
-                     2 * radius_ + 1,
-                     counts_.data(),
-                     per_count_.data()};
-    image::keep_contrast(row, bitmap.words_per_row(), bitmap.row(y), excess_.data() + y * stride_);
+const std::uint16_t* LocalBackground::tiles_of(int row) const {
+  if (row < 0 || row > last_tile_row()) return nothing_.data();
+  return tile_sums_[static_cast<std::size_t>(row) % kRing].data();
+}
+
+// A row of tiles enters the boxes and another leaves them; either may lie outside the image.
+void LocalBackground::slide_boxes(int added, int dropped) {
+  if (added >= 0 && added <= last_tile_row()) {
+    const int x = tile_first_ * kTile_px;
+    const int y = added * kTile_px;
+    const ImageView pixels{image_.row(y) + x, std::min(tile_count_ * kTile_px, image_.width_px - x),
+                           std::min(kTile_px, image_.height_px - y), image_.stride_bytes};
+    sum_tiles(pixels, tile_sums_[static_cast<std::size_t>(added) % kRing].data());
   }
-  drop_empty_words(bitmap);
+  slide_tiles(tiles_of(added), tiles_of(dropped), tile_count_,
+              column_sums_.data() + tile_first_ - (first_ - reach_));
+}
+
+void LocalBackground::start(const ImageView& image, const Window& window, const Band& band) {
+  image_ = image;
+  window_ = window;
+  needed_ = needed_by(band);
+  reach_ = std::clamp(band.background_px / (2 * kTile_px), 0, kMaxReach);
+  first_ = tile_before(window.x_min);
+  count_ = tile_before(window.x_max) + 2 - first_;
+  tile_first_ = std::max(first_ - reach_, 0);
+  const int last = (image.width_px - 1) / kTile_px;
+  tile_count_ = std::min(first_ + count_ - 1 + reach_, last) - tile_first_ + 1;
+  strip_ = tile_before(window.y_min);
+  thresholds_ = {values_.data() + kPad_px, kStride, window.y_min - middle_px(strip_),
+                 kRowsAtATime + (reach_ + 1) * kTile_px};
+  start_boxes(std::max(strip_, 0));
+}
+
+void LocalBackground::start_boxes(int row) {
+  std::fill_n(column_sums_.begin(), count_ + 2 * reach_, 0);
+  for (int i = row - reach_; i <= row + reach_; ++i) slide_boxes(i, -1);
+  rows_px_ = 0;
+  middle_ = row;
+  lower_ = 0;
+  stretch_means(lower_);
+}
+
+void LocalBackground::count_pixels() {
+  const int rows_px = covered_px(middle_, reach_, image_.height_px);
+  if (rows_px == rows_px_) return;
+  rows_px_ = rows_px;
+  for (int i = 0; i < count_; ++i) {
+    // Next to the image there is a column of tiles that may have none.
+    const int columns_px = std::max(covered_px(first_ + i, reach_, image_.width_px), 1);
+    const int count = rows_px * columns_px;
+    brightest_[static_cast<std::size_t>(i)] = needed_.flip * count;
+    per_count_[static_cast<std::size_t>(i)] = 1.0F / static_cast<float>(count);
+  }
+}
+
+void LocalBackground::stretch_means(std::size_t to) {
+  count_pixels();
+  mean_of_boxes({column_sums_.data(), 2 * reach_ + 1, brightest_.data(), per_count_.data()}, count_,
+                means_.data());
+  if (first_ < 0) means_[0] = means_[1];
+  const auto last = static_cast<std::size_t>(count_ - 1);
+  if (first_ + count_ - 1 > (image_.width_px - 1) / kTile_px) means_[last] = means_[last - 1];
+  stretch(means_.data(), count_ - 1, stretched_[to].data());
+}
+
+void LocalBackground::extend(int y_end) {
+  const int width_px = window_.x_max - window_.x_min + 1;
+  const int left = window_.x_min - middle_px(first_);
+  for (; middle_px(strip_) < window_.y_min + y_end; ++strip_) {
+    const std::size_t upper = lower_;
+    if (strip_ >= 0 && strip_ < last_tile_row()) {
+      ++middle_;
+      slide_boxes(middle_ + reach_, middle_ - reach_ - 1);
+      lower_ = 1 - upper;
+      stretch_means(lower_);
+    }
+    const int row = (middle_px(strip_) - window_.y_min + thresholds_.rows_above) / 2;
+    thresholds_between(stretched_[upper].data() + left, stretched_[lower_].data() + left, width_px,
+                       needed_, values_.data() + kPad_px + row * kStride, kStride);
+  }
 }
 
 }  // namespace dottrack::image

@@ -1,20 +1,35 @@
 #pragma once
-// Which pixels stand out from their surround: the band relative to the local background.
+// What a pixel has to exceed to stand out from its surround: the band relative to the local
+// background.
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
-#include "app/core/image/bitmap.h"
-#include "app/core/image/box_row.h"
 #include "app/core/image/identify.h"
+#include "app/core/image/tile_rows.h"
 #include "hal/base/image_view.h"
 
 namespace dottrack::image {
 
-// The background of a pixel is the mean of the background_px x background_px box around it, or of
-// the part of that box which lies inside the image. The time a pixel does not depend on the box:
-// column sums slide down the image, and differences of their running totals are box sums.
+// Of each pixel of the searched window: bright pixels must be above it, dark ones below.
+struct Thresholds {
+  const std::uint8_t* data = nullptr;  // none where there is no local background
+  std::ptrdiff_t stride = 0;
+  int rows_above = 0;  // of pixels, between the first row of thresholds and the window
+  int rows_ahead = 0;  // so far below a row, the image is looked at next
+
+  // Two rows of pixels share one. It can be read for 64 bytes before and after.
+  const std::uint8_t* row(int y) const { return data + ((rows_above + y) / 2) * stride; }
+};
+
+// The image is divided into tiles of 8 x 8 pixels from its first pixel on; those at its right and
+// lower edge may be smaller. The background in the middle of a tile is the mean, rounded, of the
+// pixels of a box of tiles around it, 2 (background_px / 16) + 1 each way, or of the part of that
+// box which lies inside the image. From the middles it is interpolated along the rows and then
+// along the columns, by averages of two, for 2 x 2 pixels at a time; outside the outermost middles
+// it is that of the nearest. So it is the same in every window of an image, and it costs little
+// more than the image's sum.
 //
 // Means that leave out pixels found bright, or replace them by the mean, were tried on real plates
 // (dots of 7 px, noise of 6 DN, box of 21 px, contrast of 8 DN): they find no dot that this one
@@ -22,44 +37,61 @@ namespace dottrack::image {
 // the noise lowers the mean.
 class LocalBackground {
  public:
-  // Of a bitmap of the window's pixels that lie in the absolute band, keeps those that differ from
-  // their background by at least min_contrast_dn (bright: above it; dark: below it), decided in
-  // integers.
-  void keep_contrast(const ImageView& image, const Window& window, const Band& band,
-                     Bitmap& bitmap);
+  static constexpr int kRowsAtATime = 2 * kTile_px;
 
-  // By how much each pixel exceeds the contrast it needed, plus one. As large as the window; valid
-  // where the bitmap has bits.
-  ImageView excess() const { return {excess_.data(), width_px_, height_px_, stride_}; }
+  // The window lies inside the image; min_contrast_dn of the band is at least 1.
+  void start(const ImageView& image, const Window& window, const Band& band);
+  // Makes the thresholds of the window's rows before y_end, from where it was; best kRowsAtATime.
+  void extend(int y_end);
+
+  const Thresholds& thresholds() const { return thresholds_; }
 
  private:
-  static constexpr int kMaxRadius = 127;
-  static constexpr int kPad = 2 * Bitmap::kWordBits;  // vectors run over the end of a row
-  static constexpr std::size_t kRow = core::kMaxImageWidth + 2 * kMaxRadius + 1 + kPad;
-  static constexpr std::size_t kPixels =
-      static_cast<std::size_t>(core::kMaxImageWidth) * core::kMaxImageHeight;
+  static constexpr int kMaxReach = 15;
+  static constexpr int kMaxTiles = core::kMaxImageWidth / kTile_px;
+  static constexpr int kPad_px = 64;  // vectors run over the end of a row
+  static constexpr std::size_t kTiles = kMaxTiles + 2 * kMaxReach + 2 + kPad_px;
+  static constexpr std::size_t kRing = 32;  // of rows of tiles: more than any box has
+  static constexpr std::size_t kStretched_px = kTiles * kTile_px;
+  static constexpr std::ptrdiff_t kStride = core::kMaxImageWidth + 2 * kPad_px;
+  static constexpr std::size_t kRows = core::kMaxImageHeight / 2 + 2 * kRowsPerTile;
+  static_assert(kRing > 2 * kMaxReach + 1);
 
-  void start(const ImageView& image, const Window& window, const Band& band);
-  const std::uint8_t* columns_of(const ImageView& image, int y) const;
-  void slide_to(const ImageView& image, int y);
-  void count_pixels(const ImageView& image, int y);
+  using TileSums = std::array<std::uint16_t, kTiles>;
 
+  int last_tile_row() const { return (image_.height_px - 1) / kTile_px; }
+  const std::uint16_t* tiles_of(int row) const;
+  void slide_boxes(int added, int dropped);
+  void start_boxes(int row);
+  void count_pixels();
+  void stretch_means(std::size_t to);
+
+  ImageView image_;
   Window window_;
-  int width_px_ = 0;
-  int height_px_ = 0;
-  std::ptrdiff_t stride_ = 0;
-  int radius_ = 0;
-  int x_first_ = 0;  // the image's columns that some box covers
-  int x_last_ = 0;
-  int rows_ = 0;  // of the present row's boxes inside the image
-  Flip flip_ = 0;
-  // Column i is column window.x_min - radius + i of the image; its sum is zero outside.
-  std::array<std::uint16_t, kRow> column_sums_{};
-  std::array<std::int32_t, kRow> totals_{};
-  std::array<std::int32_t, kRow> counts_{};
-  std::array<float, kRow> per_count_{};
-  std::array<std::uint8_t, core::kMaxImageWidth> nothing_{};  // a row outside the image
-  std::array<std::uint8_t, kPixels> excess_{};
+  Needed needed_ = {};
+  int reach_ = 0;  // tiles of a box to each side of its middle
+  // Of the tiles whose middles lie around the window, the first and how many; one on each side may
+  // be outside the image.
+  int first_ = 0;
+  int count_ = 0;
+  int tile_first_ = 0;  // of those that boxes cover inside the image
+  int tile_count_ = 0;
+  int strip_ = 0;  // next rows of thresholds: between the middles of this row of tiles and the next
+  int middle_ = 0;   // row of tiles of the present boxes
+  int rows_px_ = 0;  // in them
+  Thresholds thresholds_;
+  std::array<TileSums, kRing> tile_sums_{};
+  TileSums nothing_{};  // a row of tiles outside the image
+  // Item i belongs to column first_ - reach_ + i of tiles; zero outside the image.
+  std::array<std::int32_t, kTiles> column_sums_{};
+  // Item i belongs to the box around column first_ + i of tiles.
+  std::array<std::int32_t, kTiles> brightest_{};
+  std::array<float, kTiles> per_count_{};
+  std::array<std::uint8_t, kTiles> means_{};
+  // Stretched means of two rows of tiles, the lower of which is the last that was made.
+  std::array<std::array<std::uint8_t, kStretched_px>, 2> stretched_{};
+  std::size_t lower_ = 0;
+  std::array<std::uint8_t, kRows* static_cast<std::size_t>(kStride)> values_{};
 };
 
 }  // namespace dottrack::image

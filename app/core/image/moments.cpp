@@ -118,6 +118,15 @@ void put_sums(const RegionSums& sums, const PixelWeights& weights, std::size_t i
 
 }  // namespace
 
+Eigen::Vector2d centroid(const RegionSums& sums, const PixelWeights& weights) {
+  const auto& of = sums.of;
+  const double sign = weights.sign;
+  const double offset = weights.offset;
+  const double per_weight = 1.0 / (sign * of[RegionSums::kV] + offset * sums.n);
+  return {(sign * of[RegionSums::kVx] + offset * of[RegionSums::kX]) * per_weight,
+          (sign * of[RegionSums::kVy] + offset * of[RegionSums::kY]) * per_weight};
+}
+
 void measure(std::span<const RegionSums> sums, const PixelWeights& weights, Moments& moments) {
   constexpr std::size_t kLanes = 4;  // the last few components are repeated to fill a vector
   MomentColumns columns;

@@ -137,8 +137,8 @@ HWY_INLINE int first_column(const Component& component, int width_px, int vector
   return fits ? first : -1;
 }
 
-// kWeighted: the values are not the pixels themselves.
-template <int kVectors, bool kWeighted>
+// kThresholds: the values are not the pixels themselves.
+template <int kVectors, bool kThresholds>
 HWY_INLINE void sum(const SumsOf& of, const Component& component, int first_column,
                     RegionSums& sums) {
   const hn::Rebind<std::uint8_t, Columns> bytes;
@@ -146,7 +146,6 @@ HWY_INLINE void sum(const SumsOf& of, const Component& component, int first_colu
       hn::Set(kColumns, static_cast<std::int16_t>(of.polarity == core::Polarity::bright ? 255 : 0));
   const PixelKey corner = component.y_min * kRowStep + first_column;
   const std::uint8_t* const pixels = of.pixels.row(component.y_min) + first_column;
-  const std::uint8_t* const values = of.values.row(component.y_min) + first_column;
   const std::ptrdiff_t stride = of.pixels.stride_bytes;
   ColumnSums
       columns[std::size_t{kVectors}];  // not a std::array: its constructor is not of this target
@@ -160,9 +159,9 @@ HWY_INLINE void sum(const SumsOf& of, const Component& component, int first_colu
       const int c = k * kVectorColumns;
       const Vector pixel = hn::PromoteTo(kColumns, hn::LoadU(bytes, here + c));
       Vector value = pixel;
-      if constexpr (kWeighted) {
-        const std::uint8_t* const weighed = values + y * of.values.stride_bytes;
-        value = hn::PromoteTo(kColumns, hn::LoadU(bytes, weighed + c));
+      if constexpr (kThresholds) {
+        const std::uint8_t* const threshold = of.thresholds.row(component.y_min + y) + first_column;
+        value = hn::Abs(hn::Sub(pixel, hn::PromoteTo(kColumns, hn::LoadU(bytes, threshold + c))));
       }
       columns[k].add(y, lanes_between(c, first, last), pixel, value, flip);
     }
@@ -179,7 +178,7 @@ template <int kVectors>
 HWY_INLINE bool try_sum(const SumsOf& of, const Component& component, RegionSums& sums) {
   const int x = first_column(component, of.pixels.width_px, kVectors);
   if (x < 0) return false;
-  if (of.values.data != of.pixels.data) {
+  if (of.thresholds.data != nullptr) {
     sum<kVectors, true>(of, component, x, sums);
   } else {
     sum<kVectors, false>(of, component, x, sums);

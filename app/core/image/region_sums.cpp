@@ -54,27 +54,21 @@ class ProductSum {
   hn::Vec<Wide> odd_;
 };
 
-// The sums of a region in lanes; moved on before they could overflow.
+// The sums over a region's values in lanes; moved on before they could overflow.
 class LaneSums {
  public:
   HWY_INLINE explicit LaneSums(RegionSums& sums) : sums_(sums), faintest_(hn::Zero(kLanes)) {
-    sums_.of = {};
+    sums_.of[RegionSums::kV] = 0.0;
+    sums_.of[RegionSums::kVx] = 0.0;
+    sums_.of[RegionSums::kVy] = 0.0;
     sums_.saturated_px = 0.0;
   }
 
   // `inside` has ones in the lanes that are pixels of the region, zeros elsewhere.
   HWY_INLINE void add(Vector x, Vector y, Vector inside, Vector pixel, Vector value, Vector flip) {
-    const auto one = hn::Set(kLanes, 1);
-    x = hn::And(x, inside);
-    y = hn::And(y, inside);
     value = hn::And(value, inside);
     const auto saturated = hn::VecFromMask(kLanes, hn::Eq(pixel, hn::Set(kLanes, 255)));
-    x_.add(x, one);
-    y_.add(y, one);
-    xx_.add(x, x);
-    xy_.add(x, y);
-    yy_.add(y, y);
-    v_.add(value, one);
+    v_.add(value, hn::Set(kLanes, 1));
     vx_.add(value, x);
     vy_.add(value, y);
     saturated_.add(hn::And(saturated, inside), hn::Set(kLanes, -1));
@@ -85,11 +79,6 @@ class LaneSums {
   }
 
   void flush() {
-    x_.move_to(sums_.of[RegionSums::kX]);
-    y_.move_to(sums_.of[RegionSums::kY]);
-    xx_.move_to(sums_.of[RegionSums::kXx]);
-    xy_.move_to(sums_.of[RegionSums::kXy]);
-    yy_.move_to(sums_.of[RegionSums::kYy]);
     v_.move_to(sums_.of[RegionSums::kV]);
     vx_.move_to(sums_.of[RegionSums::kVx]);
     vy_.move_to(sums_.of[RegionSums::kVy]);
@@ -104,14 +93,13 @@ class LaneSums {
   }
 
  private:
-  // A step adds 8 products, none above 2047^2: together they fit into 31 bits.
-  static constexpr int kMaxSteps = 64;
-  static_assert(std::int64_t{8} * kMaxSteps * (core::kMaxImageWidth - 1) *
-                    (core::kMaxImageWidth - 1) <
+  // A step adds 8 products, none above 255 * 2047: together they fit into 31 bits.
+  static constexpr int kMaxSteps = 256;
+  static_assert(std::int64_t{8} * kMaxSteps * 255 * (core::kMaxImageWidth - 1) <
                 (std::int64_t{1} << 31U));
 
   RegionSums& sums_;
-  ProductSum x_, y_, xx_, xy_, yy_, v_, vx_, vy_, saturated_;
+  ProductSum v_, vx_, vy_, saturated_;
   Vector faintest_;  // as far from the polarity's end as it goes
   int steps_ = 0;
 };
@@ -120,7 +108,8 @@ HWY_INLINE Vector all(int value) {
   return hn::Set(kLanes, static_cast<std::int16_t>(value));
 }
 
-void sum_wide(const SumsOf& of, const Component& component, RegionSums& sums) {
+// The value sums of a component of any size.
+void sum_any_values(const SumsOf& of, const Component& component, RegionSums& sums) {
   const auto lane = hn::Iota(kLanes, 0);
   const bool bright = of.polarity == core::Polarity::bright;
   const auto flip = all(bright ? 255 : 0);
@@ -130,23 +119,60 @@ void sum_wide(const SumsOf& of, const Component& component, RegionSums& sums) {
     const int y = row(of.runs[i].first);
     const int n = of.runs[i].last - of.runs[i].first + 1;
     const int room = of.pixels.width_px - x;
+    const std::uint8_t* const thresholds =
+        of.thresholds.data != nullptr ? of.thresholds.row(y) : nullptr;
     for (int k = 0; k < n; k += kStep) {
       const int count = std::min(n - k, kStep);
+      const Vector pixel = load(of.pixels.row(y) + x + k, count, room - k);
+      Vector value = pixel;
+      if (thresholds != nullptr) {
+        value = hn::Abs(hn::Sub(pixel, load(thresholds + x + k, count, kStep)));
+      }
       lanes.add(hn::Add(lane, all(x + k - component.x_min)), all(y - component.y_min),
-                hn::VecFromMask(kLanes, hn::Lt(lane, all(count))),
-                load(of.pixels.row(y) + x + k, count, room - k),
-                load(of.values.row(y) + x + k, count, room - k), flip);
+                hn::VecFromMask(kLanes, hn::Lt(lane, all(count))), pixel, value, flip);
     }
   }
   lanes.finish();
   if (bright) sums.faintest_dn = 255 - sums.faintest_dn;
 }
 
+// Of a component of any size, those sums that its runs alone give: over the pixels of one, 2 x and
+// 12 x^2 have sums in whole numbers of its length n and of its ends' sum s.
+HWY_INLINE void sum_outline(const SumsOf& of, const Component& component, RegionSums& sums) {
+  std::int64_t x = 0;
+  std::int64_t xx = 0;
+  std::int64_t y = 0;
+  std::int64_t xy = 0;
+  std::int64_t yy = 0;
+  const PixelKey corner = component.y_min * kRowStep + component.x_min;
+  for (std::uint32_t i = component.head; i != Components::kEnd; i = of.components.next_run(i)) {
+    const Run run = of.runs[i];
+    const std::int64_t n = run.last - run.first + 1;
+    const std::int64_t s = column(run.first - corner) + column(run.last - corner);
+    const std::int64_t row_y = row(run.first - corner);
+    x += n * s;
+    xx += n * (3 * s * s + n * n - 1);
+    y += n * row_y;
+    xy += n * s * row_y;
+    yy += n * row_y * row_y;
+  }
+  sums.of = {static_cast<double>(x / 2),
+             static_cast<double>(y),
+             static_cast<double>(xx / 12),
+             static_cast<double>(xy / 2),
+             static_cast<double>(yy),
+             1.0,
+             0.0,
+             0.0};
+  sums.has_values = false;
+}
+
 void sum_component(const SumsOf& of, const Component& component, RegionSums& sums) {
+  sums.has_values = true;
 #if HWY_TARGET != HWY_SCALAR  // one lane holds no columns
   if (narrow::try_sum<1>(of, component, sums) || narrow::try_sum<2>(of, component, sums)) return;
 #endif
-  sum_wide(of, component, sums);
+  sum_outline(of, component, sums);
 }
 
 void sum_all(const SumsOf& of, std::span<const std::uint32_t> which, RegionSums* sums) {
@@ -168,9 +194,15 @@ HWY_AFTER_NAMESPACE();
 namespace dottrack::image {
 
 HWY_EXPORT(sum_all);
+HWY_EXPORT(sum_any_values);
 
 void sum_regions(const SumsOf& of, std::span<const std::uint32_t> which, RegionSums* sums) {
   HWY_DYNAMIC_DISPATCH(sum_all)(of, which, sums);
+}
+
+void sum_values(const SumsOf& of, const Component& component, RegionSums& sums) {
+  HWY_DYNAMIC_DISPATCH(sum_any_values)(of, component, sums);
+  sums.has_values = true;
 }
 
 }  // namespace dottrack::image

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "app/core/image/components.h"
+#include "app/core/image/local_background.h"
 #include "app/core/image/run_scan.h"
 #include "app/core/rig.h"
 #include "hal/base/image_view.h"
@@ -20,22 +21,27 @@ struct RegionSums {
   std::array<double, 8> of = {};
   double saturated_px = 0.0;  // pixels at 255
   int faintest_dn = 0;        // pixel; bright: darkest; dark: brightest
+  bool has_values = false;    // if not: v, vx, vy and the two above are anything
   int n = 0;
   int width = 0;  // of the bounding box
   int height = 0;
 };
 
-// What the sums are of: `pixels` is the image inside the searched window, `values`, as large, what
-// v, vx, vy are of.
+// What the sums are of: `pixels` is the image inside the searched window. Its values are the pixels
+// themselves or, where there are thresholds, by how much they go beyond theirs.
 struct SumsOf {
   const ImageView& pixels;
-  const ImageView& values;
+  const Thresholds& thresholds;
   core::Polarity polarity;
   const RunList& runs;
   const Components& components;
 };
 
-// The sums of components[which[i]] to sums[i].
+// The sums of components[which[i]] to sums[i]: of large ones without the values, which cost as much
+// as they have pixels, and few turn out to be dots.
 void sum_regions(const SumsOf& of, std::span<const std::uint32_t> which, RegionSums* sums);
+
+// Adds the values.
+void sum_values(const SumsOf& of, const Component& component, RegionSums& sums);
 
 }  // namespace dottrack::image

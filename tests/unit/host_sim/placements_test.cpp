@@ -5,8 +5,11 @@
 #include <set>
 
 #include "host_sim/scenarios/body_scenes.h"
+#include "host_sim/scenarios/dot_light.h"
 #include "host_sim/scenarios/scenario_file.h"
 #include "host_sim/scenarios/visibility.h"
+#include "host_sim/world/meshes.h"
+#include "host_sim/world/motions.h"
 
 namespace dottrack::host_sim {
 namespace {
@@ -90,6 +93,36 @@ TEST_F(Placements, ADotIsSeenUntilSomethingStandsBeforeIt) {
   EXPECT_EQ(
       dots_in_two_views(views_of_dots(scene_.cameras, scene_.target, upside_down, hall_, {}, 0.0)),
       0);
+}
+
+TEST_F(Placements, ADotIsWellLitUntilAShadowsEdgeIsOnItOrItIsDark) {
+  const Pose vehicle = *truth(scene_, 0.0);
+  const LightPlan lit;
+  const auto open = light_on_dots(scene_.target, vehicle, hall_, {}, lit, 0.0);
+  ASSERT_EQ(open.size(), 5U);
+  for (const DotLight& dot : open) {
+    EXPECT_GT(dot.darkest, 0.0);
+    EXPECT_LE(dot.darkest, dot.brightest);
+    EXPECT_TRUE(well_lit(dot, scene_, 1.0));
+    EXPECT_FALSE(well_lit(dot, scene_, 0.02)) << "irises nearly shut";
+  }
+  EXPECT_FALSE(well_lit({0.3, 0.6}, scene_, 1.0)) << "cut in two";
+  EXPECT_TRUE(well_lit({0.5, 0.6}, scene_, 1.0));
+  LightPlan dark;
+  for (const char* group : {"fluorescent", "window", "sun"})
+    dark.changes.push_back({group, 0, 0, 0});
+  for (const DotLight& dot : light_on_dots(scene_.target, vehicle, hall_, {}, dark, 0.0)) {
+    EXPECT_EQ(dot.brightest, 0.0);
+  }
+  // A roof a little above the first dot.
+  Body roof{"roof", {}, stand_at(vehicle)};
+  const Eigen::Vector3d above = scene_.target[0].centre_m + Eigen::Vector3d(0.0, 0.0, 0.05);
+  add(roof.model, box(above, {0.6, 0.6, 0.01}), {.albedo = 0.5});
+  const std::vector<Body> roofs{roof};
+  const BodyScenes shade(roofs);
+  const auto under = light_on_dots(scene_.target, vehicle, hall_, shade.moving(), lit, 0.0);
+  EXPECT_LT(under[0].brightest, 0.5 * open[0].darkest);
+  EXPECT_EQ(under[1].darkest, open[1].darkest);
 }
 
 }  // namespace

@@ -5,9 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstdlib>
+#include <deque>
 #include <stdexcept>
 
+#include "host_sim/scenarios/body_scenes.h"
 #include "host_sim/scenarios/parallel.h"
+#include "host_sim/scenarios/placements.h"
 #include "host_sim/scenarios/scenario_file.h"
 
 namespace dottrack::host_sim {
@@ -73,6 +77,101 @@ TEST(SceneRendererTest, OtherBodiesAndAnotherLightLeaveTheSceneAsItIs) {
   }
   renderer.render(exposures_at(0.0, 0), again);
   EXPECT_TRUE(same(first, again));
+}
+
+// Random bodies in random light.
+class Shots : public testing::Test {
+ protected:
+  static constexpr std::uint64_t kShots = 4;
+
+  void SetUp() override {
+    for (std::uint64_t i = 0; i < kShots; ++i) {
+      placements_.push_back(random_placement(scene_, hall_.scene, 3, i));
+    }
+    for (const Placement& placement : placements_) bodies_.emplace_back(placement.bodies);
+  }
+
+  SceneRenderer::Shot shot(std::uint64_t i) const {
+    SceneRenderer::Shot shot;
+    shot.exposures = exposures_at(0.0, i);
+    for (Exposure& exposure : shot.exposures) exposure.opening = placements_[i].opening;
+    shot.bodies = bodies_[i].moving();
+    shot.light = placements_[i].light;
+    return shot;
+  }
+
+  // Through one batch, read out.
+  static std::vector<std::vector<GreyImage>> pictures(SceneRenderer& renderer,
+                                                      std::vector<SceneRenderer::Shot> shots,
+                                                      Detail detail) {
+    renderer.collect(shots, detail);
+    std::vector<std::vector<GreyImage>> all;
+    for (const SceneRenderer::Shot& shot : shots) {
+      std::vector<GreyImage>& images = all.emplace_back(shot.exposures.size());
+      for (std::size_t i = 0; i < images.size(); ++i) {
+        renderer.read(shot, i, shot.exposures[i].noise, images[i]);
+      }
+    }
+    return all;
+  }
+
+  Scene scene_ = small_scene();
+  Hall hall_{scene_.world.hall, scene_.world.lamps};
+  std::vector<Placement> placements_;
+  std::deque<BodyScenes> bodies_;
+};
+
+TEST_F(Shots, InABatchAreTheBytesOfPicturesOneByOne) {
+  SceneRenderer batch(scene_, 2);
+  std::vector<SceneRenderer::Shot> shots;
+  for (std::uint64_t i = 0; i < kShots; ++i) shots.push_back(shot(i));
+  const auto together = pictures(batch, std::move(shots), Detail::full);
+  SceneRenderer singly(scene_, 1);
+  for (std::uint64_t i = kShots; i-- > 0;) {
+    std::vector<GreyImage> images;
+    const SceneRenderer::Shot one = shot(i);
+    singly.render(one.exposures, one.bodies, one.light, images);
+    ASSERT_EQ(images.size(), 3U);
+    EXPECT_TRUE(same(together[i], images)) << i;
+    EXPECT_TRUE(i == 0 || !same(together[0], images)) << i;
+  }
+}
+
+TEST_F(Shots, QuicklyPaintedDependOnNothingThatWasPaintedBefore) {
+  SceneRenderer batch(scene_, 3);
+  std::vector<SceneRenderer::Shot> shots;
+  for (std::uint64_t i = 0; i < kShots; ++i) shots.push_back(shot(i));
+  const auto together = pictures(batch, std::move(shots), Detail::quick);
+  SceneRenderer singly(scene_, 1);
+  std::vector<GreyImage> between;
+  for (std::uint64_t i = kShots; i-- > 0;) {
+    EXPECT_TRUE(same(together[i], pictures(singly, {shot(i)}, Detail::quick)[0])) << i;
+    singly.render(exposures_at(0.0, 0), between);
+  }
+}
+
+// Of the still hall the sums are the same but for roundings; bodies and shadows are coarser.
+TEST_F(Shots, QuicklyPaintedAreNearlyTheCarefulOnes) {
+  SceneRenderer renderer(scene_, 2);
+  for (std::uint64_t i = 0; i < kShots; ++i) {
+    SceneRenderer::Shot bare = shot(i);
+    bare.bodies = {};
+    const auto still = pictures(renderer, {bare}, Detail::full)[0];
+    const auto quick_still = pictures(renderer, {bare}, Detail::quick)[0];
+    const auto full = pictures(renderer, {shot(i)}, Detail::full)[0];
+    const auto quick = pictures(renderer, {shot(i)}, Detail::quick)[0];
+    for (std::size_t c = 0; c < full.size(); ++c) {
+      int most_still = 0;
+      int pixels_off = 0;
+      for (std::size_t p = 0; p < full[c].pixels().size(); ++p) {
+        most_still =
+            std::max(most_still, std::abs(still[c].pixels()[p] - quick_still[c].pixels()[p]));
+        pixels_off += std::abs(full[c].pixels()[p] - quick[c].pixels()[p]) > 8 ? 1 : 0;
+      }
+      EXPECT_LE(most_still, 1) << i << " " << c;
+      EXPECT_LE(pixels_off, 64 * 48 / 20) << i << " " << c;
+    }
+  }
 }
 
 TEST(ForEachIndex, DoesEachPieceOnceAndPassesOnWhatOneThrows) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/unit/image/plain_background.h"
+
 namespace dottrack::image::test {
 
 namespace {
@@ -21,6 +23,7 @@ class Plain {
   Plain(const Picture& picture, const Window& window, const Band& band)
       : picture_(picture),
         band_(band),
+        background_(picture, band.background_px, band.polarity),
         x0_(std::max(window.x_min, 0)),
         y0_(std::max(window.y_min, 0)),
         x1_(std::min(window.x_max, picture.width_px() - 1)),
@@ -63,25 +66,17 @@ class Plain {
     const int value = picture_.at(x, y);
     if (value < band_.intensity_min_dn || value > band_.intensity_max_dn) return false;
     if (band_.min_contrast_dn <= 0) return true;
-    const PlainBackground b = plain_background(picture_, x, y, band_.background_px);
-    const int difference = value * b.count - b.sum;
-    const int sign = band_.polarity == core::Polarity::bright ? 1 : -1;
-    return sign * difference >= band_.min_contrast_dn * b.count;
+    return background_.excess(x, y) >= band_.min_contrast_dn;
   }
 
   // What the header promises of the centroid's weights.
   double weight(int x, int y) const {
     const int value = picture_.at(x, y);
     const bool bright = band_.polarity == core::Polarity::bright;
-    if (band_.min_contrast_dn > 0) {
-      const PlainBackground b = plain_background(picture_, x, y, band_.background_px);
-      const int sum = bright ? b.sum : 255 * b.count - b.sum;
-      const float per_count = 1.0F / static_cast<float>(b.count);
-      const auto mean = static_cast<int>(std::nearbyint(static_cast<float>(sum) * per_count));
-      return (bright ? value : 255 - value) - mean - band_.min_contrast_dn + 1;
-    }
-    return bright ? value - std::max(band_.intensity_min_dn, 0) + 1
-                  : std::min(band_.intensity_max_dn, 255) - value + 1;
+    const int beyond = bright ? value - std::max(band_.intensity_min_dn, 0) + 1
+                              : std::min(band_.intensity_max_dn, 255) - value + 1;
+    if (band_.min_contrast_dn <= 0) return beyond;
+    return std::min(beyond, background_.excess(x, y) - band_.min_contrast_dn + 1);
   }
 
   void count_runs(IdentifyCounts& counts) const {
@@ -203,6 +198,7 @@ class Plain {
 
   const Picture& picture_;
   const Band& band_;
+  PlainBackground background_;
   int x0_;
   int y0_;
   int x1_;
@@ -232,19 +228,6 @@ void expect_equal(const Region& expected, const Region& region) {
 }
 
 }  // namespace
-
-PlainBackground plain_background(const Picture& picture, int x, int y, int background_px) {
-  const int radius = background_px / 2;
-  PlainBackground background;
-  for (int j = y - radius; j <= y + radius; ++j) {
-    for (int i = x - radius; i <= x + radius; ++i) {
-      if (!picture.contains(i, j)) continue;
-      background.sum += picture.at(i, j);
-      ++background.count;
-    }
-  }
-  return background;
-}
 
 Window whole(const Picture& picture) {
   return {0, 0, picture.width_px() - 1, picture.height_px() - 1};

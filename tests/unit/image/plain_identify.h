@@ -16,13 +16,6 @@ struct PlainResult {
 PlainResult plain_identify(const Picture& picture, const Window& window, const Band& band,
                            const RegionGate& gate);
 
-// The background of a pixel: a sum and a number of pixels.
-struct PlainBackground {
-  int sum = 0;
-  int count = 0;
-};
-PlainBackground plain_background(const Picture& picture, int x, int y, int background_px);
-
 // The whole picture.
 Window whole(const Picture& picture);
 

@@ -12,8 +12,9 @@ namespace dottrack::acquisition {
 namespace {
 
 constexpr std::uint64_t kUnits = 200'000;
-// A step that has begun is finished. The longest is to weigh a candidate against all finalists.
-constexpr std::uint64_t kOvershoot = 2 * core::kMaxFinalists * core::kMaxDots;
+// A step that has begun is finished. The longest that begins without asking is to sort candidates
+// in, once a bound of selection.
+constexpr std::uint64_t kOvershoot = core::kMaxFinalists + 1000;
 
 TEST(WorstCase, EveryTickStaysWithinItsBudget) {
   const auto scene = std::make_unique<test::LatticeScene>();

@@ -1,0 +1,53 @@
+#pragma once
+// The steps from a row of tiles to the thresholds of its pixels, many tiles or pixels at a time.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "hal/base/image_view.h"
+
+namespace dottrack::image {
+
+inline constexpr int kTile_px = 8;
+inline constexpr int kRowsPerTile = 4;  // of thresholds: two rows of pixels share one
+
+// 0xFF turns a pixel of a dark dot into one of a bright dot: value ^ flip.
+using Flip = std::uint8_t;
+
+// sums[i] = the sum of all pixels of tile i. `pixels` is one row of tiles: its height is at most
+// kTile_px; its last tile may be narrower.
+void sum_tiles(const ImageView& pixels, std::uint16_t* sums);
+
+// sums[i] += added[i] - dropped[i] for n tiles.
+void slide_tiles(const std::uint16_t* added, const std::uint16_t* dropped, int n,
+                 std::int32_t* sums);
+
+// Boxes of `box` tiles that begin at each of n tiles. Arrays but `means` may be read, and `means`
+// written, for 15 tiles beyond the last.
+struct TileBoxes {
+  const std::int32_t* column_sums;
+  int box;
+  const std::int32_t* brightest;  // bright: 0; dark: 255 for each of the box's pixels
+  const float* per_count;         // the inverse of the pixels in the box
+};
+
+// means[i] = the mean of the box's pixels, flipped for dark dots, rounded to an integer.
+void mean_of_boxes(const TileBoxes& boxes, int n, std::uint8_t* means);
+
+// From means in the middles of tiles to a row of pixels which begins in the middle of the first:
+// one, three, five and seven eighths of the way from means[i] to means[i + 1], two pixels each, for
+// i < n. May write up to 15 tiles beyond the last.
+void stretch(const std::uint8_t* means, int n, std::uint8_t* row);
+
+struct Needed {
+  std::uint8_t over;   // more than this above the background
+  std::uint8_t floor;  // and more than this
+  Flip flip;
+};
+
+// kRowsPerTile rows of n thresholds, one, three, five and seven eighths of the way between the
+// stretched means of two rows of tiles. May write up to 63 beyond the last.
+void thresholds_between(const std::uint8_t* upper, const std::uint8_t* lower, int n,
+                        const Needed& needed, std::uint8_t* thresholds, std::ptrdiff_t stride);
+
+}  // namespace dottrack::image
