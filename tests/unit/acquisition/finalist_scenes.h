@@ -99,7 +99,8 @@ class SceneMaker {
     while (f.cameras.size() < views) {
       f.cameras.insert(std::uniform_int_distribution<std::size_t>(0, 11)(random_));
     }
-    f.sighting.fill(sighting_++);
+    f.sighting.fill(sighting_);  // nobody else's in this scene
+    sighting_ = static_cast<std::uint16_t>((sighting_ + 1U) % core::kMaxRegions);
     return f;
   }
 
