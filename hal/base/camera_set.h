@@ -1,7 +1,6 @@
 #pragma once
 // Which of at most 16 cameras: one bit each.
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -24,7 +23,14 @@ class CameraSet {
   constexpr void erase(std::size_t camera) {
     bits_ = static_cast<std::uint16_t>(bits_ & ~(1U << camera));
   }
-  constexpr int size() const { return std::popcount(bits_); }
+  // Spelled out: without the processor's own instruction, which not all have, std::popcount is a
+  // call, and acquisition counts cameras tens of thousands of times in a tick.
+  constexpr int size() const {
+    unsigned n = bits_ - ((bits_ >> 1U) & 0x5555U);
+    n = (n & 0x3333U) + ((n >> 2U) & 0x3333U);
+    n = (n + (n >> 4U)) & 0x0F0FU;
+    return static_cast<int>((n + (n >> 8U)) & 0x1FU);
+  }
   constexpr bool empty() const { return bits_ == 0; }
   constexpr std::uint16_t bits() const { return bits_; }
   constexpr bool operator==(const CameraSet&) const = default;

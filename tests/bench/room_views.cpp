@@ -9,8 +9,8 @@ namespace {
 constexpr double kNoise_px = 0.1;
 
 bool look(const core::Camera& camera, const geometry::Optics& optics, const Eigen::Vector3d& point,
-          std::mt19937& random, estimation::Sighting& sighting) {
-  image::Region region;
+          std::mt19937& random, image::Region& region) {
+  region = {};
   if (geometry::project(camera.model, point, region.centroid_px) != geometry::OpticsStatus::ok) {
     return false;
   }
@@ -27,6 +27,13 @@ bool look(const core::Camera& camera, const geometry::Optics& optics, const Eige
   region.x_max = static_cast<std::int16_t>(p.x() + r);
   region.y_min = static_cast<std::int16_t>(p.y() - r);
   region.y_max = static_cast<std::int16_t>(p.y() + r);
+  return true;
+}
+
+bool look(const core::Camera& camera, const geometry::Optics& optics, const Eigen::Vector3d& point,
+          std::mt19937& random, estimation::Sighting& sighting) {
+  image::Region region;
+  if (!look(camera, optics, point, random, region)) return false;
   return estimation::make_sighting(camera, optics, {kRoomDiameter_m, kRoomDiameter_m}, region,
                                    sighting);
 }
@@ -57,6 +64,24 @@ RoomViews::RoomViews(std::size_t common_dots, std::size_t sightings)
       }
     }
   }
+}
+
+RoomRegions::RoomRegions(const core::Rig& rig, std::size_t regions) : regions_(rig.cameras.size()) {
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    const core::Camera& camera = rig.cameras[i];
+    const geometry::Optics optics(camera.model, camera.width_px, camera.height_px);
+    image::Region region;
+    for (const core::TargetDot& dot : rig.target.dots) {
+      const Eigen::Vector3d place_m = RoomScene::place_m() + dot.position_m;
+      if (look(camera, optics, place_m, random_, region)) regions_[i].push_back(region);
+    }
+    while (regions_[i].size() < regions) {
+      if (look(camera, optics, point_in_room(random_), random_, region)) {
+        regions_[i].push_back(region);
+      }
+    }
+  }
+  for (const image::Regions& seen : regions_) pointers_.push_back(&seen);
 }
 
 }  // namespace dottrack::bench

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/core/acquisition/match.h"
+#include "app/core/image/identify.h"
 #include "tests/bench/room_scene.h"
 
 namespace dottrack::bench {
@@ -25,6 +26,20 @@ class RoomViews {
   core::Rig rig_;
   std::mt19937 random_{11};
   std::vector<acquisition::CameraView> views_;
+};
+
+// The same as regions: of the target's dots at RoomScene's place and of others, each camera's own,
+// that look like dots.
+class RoomRegions {
+ public:
+  RoomRegions(const core::Rig& rig, std::size_t regions);
+
+  std::span<const image::Regions* const> regions() const { return pointers_; }
+
+ private:
+  std::mt19937 random_{12};
+  std::vector<image::Regions> regions_;
+  std::vector<const image::Regions*> pointers_;
 };
 
 }  // namespace dottrack::bench

@@ -1,7 +1,6 @@
 #include "app/core/acquisition/finalist_builder.h"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 
 #include "app/core/acquisition/refine.h"
@@ -54,7 +53,8 @@ int FinalistBuilder::take(const CandidatePair& pair, int min_views, WorkBudget& 
   PointViews alone;
   for (std::size_t side = 0; side < 2; ++side) alone.set(pair.camera[side], pair.sighting[side]);
   const CameraSet look = finder_.look(pair.point_m);
-  const int close = std::popcount(static_cast<unsigned>(look.bits() | alone.cameras.bits()));
+  const int close =
+      CameraSet(static_cast<std::uint16_t>(look.bits() | alone.cameras.bits())).size();
   const bool vague = finder_.is_vague(pair);
   if (close < min_views && !vague) return close;
   budget.spend(kVerifyUnits);

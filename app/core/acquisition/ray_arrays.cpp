@@ -16,8 +16,9 @@ double box_tangent(const Sighting& sighting, double max_residual_px) {
   const Eigen::Vector2d corner = (sighting.box_max_px - sighting.pixel)
                                      .cwiseAbs()
                                      .cwiseMax((sighting.box_min_px - sighting.pixel).cwiseAbs());
-  const double in_box_px = (corner + along.cwiseAbs()).norm();
-  const double reach_px = std::min(in_box_px, max_residual_px + along.norm());
+  const double in_box2_px = (corner + along.cwiseAbs()).squaredNorm();
+  const double residual_px = max_residual_px + along.cwiseAbs().sum();
+  const double reach2_px = std::min(in_box2_px, residual_px * residual_px);
   // The smaller eigenvalue of J J^T for displacements across the ray: the slowest that the pixel
   // moves, squared.
   const double xx = jacobian.row(0).squaredNorm() - along.x() * along.x();
@@ -25,7 +26,7 @@ double box_tangent(const Sighting& sighting, double max_residual_px) {
   const double xy = jacobian.row(0).dot(jacobian.row(1)) - along.x() * along.y();
   const double half_gap = 0.5 * (xx - yy);
   const double least = 0.5 * (xx + yy) - std::sqrt(half_gap * half_gap + xy * xy);
-  return reach_px / std::sqrt(std::max(least, 1e-12));
+  return std::sqrt(reach2_px / std::max(least, 1e-12));
 }
 
 }  // namespace

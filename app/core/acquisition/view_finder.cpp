@@ -38,7 +38,7 @@ PointViews ViewFinder::views_of(const Vector3d& point_m, CameraSet cameras, doub
                                 const PointViews& known, int enough) const {
   PointViews found = known;
   unsigned left = cameras.bits() & ~static_cast<unsigned>(known.cameras.bits());
-  int most = known.cameras.size() + std::popcount(left);
+  int most = CameraSet(static_cast<std::uint16_t>(cameras.bits() | known.cameras.bits())).size();
   for (; left != 0 && most >= enough; left &= left - 1) {
     const auto c = static_cast<std::size_t>(std::countr_zero(left));
     std::uint16_t sighting = SightingIndex::kNone;

@@ -20,10 +20,6 @@ AngularScale scale_at(const CameraModel& model, const Eigen::Vector2d& pixel) {
 
 }  // namespace
 
-double AngularScale::mean_px() const {
-  return std::sqrt(min_px * max_px);
-}
-
 Optics::Optics(const CameraModel& model, int width_px, int height_px)
     : cells_per_column_(static_cast<double>(kCells) / width_px),
       cells_per_row_(static_cast<double>(kCells) / height_px) {
@@ -39,13 +35,6 @@ Optics::Optics(const CameraModel& model, int width_px, int height_px)
       extremes_.max_px = std::max(extremes_.max_px, scale.max_px);
     }
   }
-}
-
-const AngularScale& Optics::at(const Eigen::Vector2d& pixel) const {
-  const int column =
-      std::clamp(static_cast<int>((pixel.x() + 0.5) * cells_per_column_), 0, kCells - 1);
-  const int row = std::clamp(static_cast<int>((pixel.y() + 0.5) * cells_per_row_), 0, kCells - 1);
-  return cells_[cell(column, row)];
 }
 
 }  // namespace dottrack::geometry

@@ -2,7 +2,9 @@
 // How many pixels a radian spans, anywhere in one camera's image: what sizes are judged by.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "app/core/geometry/camera_model.h"
@@ -14,7 +16,7 @@ struct AngularScale {
   double min_px = 0.0;
   double max_px = 0.0;
 
-  double mean_px() const;  // geometric mean
+  double mean_px() const { return std::sqrt(min_px * max_px); }  // geometric mean
 };
 
 // A table over the image, made once at start-up from the model's partial derivatives
@@ -26,7 +28,13 @@ class Optics {
 
   // Of the grid cell that holds the pixel; pixels outside the image take the nearest cell.
   // Zero where the lens sees nothing.
-  const AngularScale& at(const Eigen::Vector2d& pixel) const;
+  const AngularScale& at(const Eigen::Vector2d& pixel) const {
+    const auto nearest = [](double at) {
+      return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(kCells - 1)));
+    };
+    return cells_[cell(nearest((pixel.x() + 0.5) * cells_per_column_),
+                       nearest((pixel.y() + 0.5) * cells_per_row_))];
+  }
   // Smallest and largest over the whole image; zero for a camera that sees nothing.
   const AngularScale& extremes() const { return extremes_; }
 

@@ -87,16 +87,22 @@ struct Mix {
   std::uint64_t seed;
   int scenes;
   std::array<std::size_t, 8> dots;
+  // Above 0: nothing is known but finalists of so many views, as in the first part of a search.
+  // Dots are seen by more cameras then.
+  std::size_t least_views = 0;
 };
 
 inline Calibration calibrate(const Mix& mix) {
   Calibration calibration;
-  SceneMaker make(mix.seed);
+  SceneMaker make(mix.seed, mix.least_views > 0 ? 2 : 0);
   Finder finder;
   for (int i = 0; i < mix.scenes; ++i) {
     const auto kind = static_cast<ClutterKind>(i % 3);
     const std::size_t dots = mix.dots[static_cast<std::size_t>(i / 3) % mix.dots.size()];
-    const FinalistScene scene = make.scene(kind, dots);
+    FinalistScene scene = make.scene(kind, dots);
+    std::erase_if(scene.finalists, [&](const Finalist& f) {
+      return static_cast<std::size_t>(f.cameras.size()) < mix.least_views;
+    });
     const auto lock = finder.find(scene, kLimit_m);
     if (!lock) continue;
     const double p = false_lock_probability(lock->log_odds, as_span(lock->rivals));

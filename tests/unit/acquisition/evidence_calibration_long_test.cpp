@@ -33,6 +33,17 @@ TEST(EvidenceCalibration, OfTargetsInPart) {
   EXPECT_EQ(calibration.row("probability below 1e-6").wrong, 0.0);
 }
 
+// The search ends among these when what it finds is certain enough: clutter of fewer views that
+// crowds around it has not been looked for.
+TEST(EvidenceCalibration, OfFinalistsOfManyViewsAlone) {
+  const Calibration calibration = calibrate({1003, 24000, {3, 3, 3, 3, 3, 4, 4, 4}, 6});
+  EXPECT_GE(calibration.row("all").candidates, 3000.0);
+  EXPECT_GE(calibration.row("all").wrong, 300.0);
+  EXPECT_GE(calibration.check(), 4);
+  EXPECT_GE(calibration.row("probability below 1e-6").candidates, 500.0);
+  EXPECT_EQ(calibration.row("probability below 1e-6").wrong, 0.0);
+}
+
 // Something that looks exactly like the target stands around. With both to be seen each is the
 // other's rival.
 TEST(EvidenceCalibration, BesideAnExactCopy) {

@@ -33,7 +33,9 @@ struct FinalistScene {
 
 class SceneMaker {
  public:
-  explicit SceneMaker(std::uint64_t seed) : random_(seed) {}
+  // What looks like a dot is seen by five cameras on average, or by as many more.
+  explicit SceneMaker(std::uint64_t seed, int more_views = 0)
+      : random_(seed), more_views_(more_views) {}
 
   double uniform(double a, double b) {
     return std::uniform_real_distribution<double>(a, b)(random_);
@@ -77,7 +79,7 @@ class SceneMaker {
   }
 
   // A dot as cameras see it: most of them by several, whether it is the target's or looks like it.
-  int views_of_dot() { return 2 + std::binomial_distribution<int>(6, 0.5)(random_); }
+  int views_of_dot() { return 2 + more_views_ + std::binomial_distribution<int>(6, 0.5)(random_); }
   // Lines that cross by chance.
   int views_of_crossing() { return chance(0.8) ? 2 : chance(0.85) ? 3 : 4; }
 
@@ -97,7 +99,8 @@ class SceneMaker {
     while (f.cameras.size() < views) {
       f.cameras.insert(std::uniform_int_distribution<std::size_t>(0, 11)(random_));
     }
-    f.sighting.fill(sighting_++);
+    f.sighting.fill(sighting_);  // nobody else's in this scene
+    sighting_ = static_cast<std::uint16_t>((sighting_ + 1U) % core::kMaxRegions);
     return f;
   }
 
@@ -150,6 +153,7 @@ class SceneMaker {
 
  private:
   std::mt19937_64 random_;
+  int more_views_ = 0;
   std::uint16_t sighting_ = 0;
 };
 
