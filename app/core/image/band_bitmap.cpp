@@ -110,28 +110,36 @@ HWY_INLINE void fill(const ImageView& image, const Window& window, Test in_band,
                      int y_first, int y_end, Bitmap& bitmap) {
   const int full_words = bitmap.width_px() / 64;
   const int tail = bitmap.width_px() % 64;
+  constexpr int kGroupWords = Bitmap::kGroupWords;
+  static_assert(kGroupWords == 4);
   const std::ptrdiff_t ahead = rows_ahead * image.stride_bytes;
   PixelKey* occupied = bitmap.occupied_end();
   for (int y = y_first; y < y_end; ++y) {
     const std::uint8_t* pixels = image.row(window.y_min + y) + window.x_min;
     std::uint64_t* words = bitmap.row(y);
     in_band.start_row(y);
-    const auto put = [words, y, &occupied](int w, std::uint64_t word) HWY_ATTR {
-      words[w] = word;
-      *occupied = y * kRowStep + 64 * w;
-      occupied += word != 0;  // whether it is cannot be predicted, so there is no branch for it
-    };
-#pragma GCC unroll 4
-    for (int w = 0; w < full_words; ++w) {
+    const auto put = [=](int w) HWY_ATTR {
       const std::uint8_t* first = pixels + std::ptrdiff_t{64} * w;
       hwy::Prefetch(first + ahead);
-      put(w, band_word(first, 64 * w, in_band));
+      return words[w] = band_word(first, 64 * w, in_band);
+    };
+    const auto list = [y, &occupied](int w, std::uint64_t all) HWY_ATTR {
+      *occupied = y * kRowStep + 64 * w;
+      occupied += all != 0;  // whether it is cannot be predicted, so there is no branch for it
+    };
+    int w = 0;
+    for (; w + kGroupWords <= full_words; w += kGroupWords) {
+      list(w, put(w) | put(w + 1) | put(w + 2) | put(w + 3));
     }
+    const int group = w;
+    std::uint64_t all = 0;
+    for (; w < full_words; ++w) all |= put(w);
     if (tail != 0) {
-      const int x = 64 * full_words;
-      put(full_words, band_tail(pixels + x, tail, window.x_min + x, x, in_band));
+      const int x = 64 * w;
+      all |= words[w++] = band_tail(pixels + x, tail, window.x_min + x, x, in_band);
     }
-    words[bitmap.words_per_row()] = 0;
+    if (w > group) list(group, all);
+    std::fill_n(words + w, kGroupWords, 0U);
   }
   bitmap.set_occupied_end(occupied);
 }

@@ -23,11 +23,13 @@ constexpr int row(PixelKey key) {
 
 // Pixel (x, y) is bit x % 64 of word x / 64 in row y. Around the pixels lies a border of zeros: the
 // word before and the word after each row, the row above the first and the row below the last, so
-// that neighbours can be read without asking whether they exist. Whoever fills rows clears the word
-// after each, and lists the words that are not zero.
+// that neighbours can be read without asking whether they exist. Words count in groups of a few
+// from the beginning of a row; whoever fills rows clears the words after each, up to the end of a
+// group and one at least, and lists the groups that are not zero.
 class Bitmap {
  public:
   static constexpr int kWordBits = 64;
+  static constexpr int kGroupWords = 4;
   static constexpr int kRowWords = kRowStep / kWordBits;  // from one row to the next
 
   // Forgets what was listed and clears the rows above and below; the rows are left to be filled.
@@ -47,7 +49,7 @@ class Bitmap {
   // The word that begins with this pixel.
   const std::uint64_t* word(PixelKey key) const { return row(0) + (key >> 6); }
 
-  // First pixels of the words that are not zero, row by row.
+  // First pixels of the groups that are not zero, row by row.
   std::span<const PixelKey> occupied() const { return {occupied_.data(), occupied_count_}; }
   // To list more: where the list ends, and where it ends then.
   PixelKey* occupied_end() { return occupied_.data() + occupied_count_; }
@@ -56,7 +58,7 @@ class Bitmap {
   }
 
  private:
-  static_assert(core::kMaxImageWidth + 2 * kWordBits <= kRowStep);
+  static_assert(core::kMaxImageWidth + (kGroupWords + 1) * kWordBits <= kRowStep);
 
   static std::size_t offset(int y) {
     return 1 + static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(kRowWords);
@@ -68,8 +70,9 @@ class Bitmap {
   std::size_t occupied_count_ = 0;
   std::array<std::uint64_t, 1 + static_cast<std::size_t>(kRowWords) * (core::kMaxImageHeight + 2)>
       words_{};
-  static constexpr std::size_t kMaxRowWords = (core::kMaxImageWidth + kWordBits - 1) / kWordBits;
-  std::array<PixelKey, kMaxRowWords * core::kMaxImageHeight + 1> occupied_{};
+  static constexpr int kGroupBits = kWordBits * kGroupWords;
+  static constexpr std::size_t kMaxRowGroups = (core::kMaxImageWidth + kGroupBits - 1) / kGroupBits;
+  std::array<PixelKey, kMaxRowGroups * core::kMaxImageHeight + 1> occupied_{};
 };
 
 }  // namespace dottrack::image

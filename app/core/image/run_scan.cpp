@@ -2,17 +2,76 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
-// Not for its vectors, but for the bit counting that comes with the processor's instructions.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "app/core/image/run_scan.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h, by its rules.
 #include <hwy/highway.h>
 
+#include "app/core/image/simd_bits-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace dottrack::image {
 namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Words = hn::CappedTag<std::uint64_t, Bitmap::kGroupWords>;
+constexpr Words kWords;
+
+// Which of four bits are set, a byte each, and garbage behind them.
+constexpr std::array<std::uint32_t, 16> set_bits_of_four() {
+  std::array<std::uint32_t, 16> table{};
+  for (unsigned bits = 0; bits < table.size(); ++bits) {
+    unsigned shift = 0;
+    for (unsigned bit = 0; bit < 4; ++bit) {
+      if ((bits >> bit & 1U) == 0) continue;
+      table[bits] |= bit << shift;
+      shift += 8;
+    }
+  }
+  return table;
+}
+constexpr std::array<std::uint32_t, 16> kSetBits = set_bits_of_four();
+
+// Finds the ends of runs in a group. A run begins (ends) at a pixel with a neighbour whose left
+// (right) neighbour is clear. Returns a bit for each word: whether it has an end.
+HWY_INLINE unsigned find_ends_in(const std::uint64_t* group, std::uint64_t* first,
+                                 std::uint64_t* last) {
+  const auto at = [group](std::ptrdiff_t i) HWY_ATTR { return hn::LoadU(kWords, group + i); };
+  unsigned some = 0;
+  for (int i = 0; i < Bitmap::kGroupWords; i += static_cast<int>(MaxLanes(kWords))) {
+    const auto here = at(i);
+    const auto left = hn::Or(hn::ShiftLeft<1>(here), hn::ShiftRight<63>(at(i - 1)));
+    const auto right = hn::Or(hn::ShiftRight<1>(here), hn::ShiftLeft<63>(at(i + 1)));
+    const auto beside = hn::Or(at(i - Bitmap::kRowWords), at(i + Bitmap::kRowWords));
+    const auto connected = hn::And(here, hn::Or(beside, hn::Or(left, right)));
+    const auto firsts = hn::AndNot(left, connected);
+    const auto lasts = hn::AndNot(right, connected);
+    hn::StoreU(firsts, kWords, first + i);
+    hn::StoreU(lasts, kWords, last + i);
+    const auto none = hn::Eq(hn::Or(firsts, lasts), hn::Zero(kWords));
+    some |= static_cast<unsigned>(~bits_of(kWords, none) & ((1U << MaxLanes(kWords)) - 1)) << i;
+  }
+  return some;
+}
+
+// Lists the words that have an end. Whether one has cannot be predicted, so there
+// is no branch for it.
+std::size_t find_ends(const Bitmap& bitmap, std::span<const PixelKey> groups, EndWords& found) {
+  std::size_t count = 0;
+  std::size_t at = 0;
+  for (const PixelKey group : groups) {
+    const unsigned some =
+        find_ends_in(bitmap.word(group), found.first.data() + at, found.last.data() + at);
+    const std::uint32_t words = kSetBits[some] + 0x01010101U * static_cast<std::uint32_t>(at);
+    std::memcpy(found.listed.data() + count, &words, sizeof(words));
+    count += static_cast<std::size_t>(std::popcount(some));
+    at += Bitmap::kGroupWords;
+  }
+  return count;
+}
 
 // Writes the positions of the set bits, and garbage behind them; returns how many. Two without a
 // branch: more in one word are rare, and whether there are none, one or two cannot be predicted.
@@ -28,40 +87,25 @@ HWY_INLINE std::size_t write_positions(std::uint64_t bits, PixelKey key, Run* ru
   return static_cast<std::size_t>(std::popcount(bits));
 }
 
-// A run begins (ends) at a set pixel whose left (right) neighbour is clear, unless no neighbour at
-// all is set. Whether a word has such a pixel cannot be predicted, so there is no branch for it.
-HWY_INLINE std::size_t find_ends(const Bitmap& bitmap, std::span<const PixelKey> words,
-                                 EndWord* found) {
-  EndWord* end = found;
-  for (const PixelKey key : words) {
-    const std::uint64_t* here = bitmap.word(key);
-    const std::uint64_t left = *here << 1U | *(here - 1) >> 63U;
-    const std::uint64_t right = *here >> 1U | *(here + 1) << 63U;
-    const std::uint64_t beside = *(here - Bitmap::kRowWords) | *(here + Bitmap::kRowWords);
-    const std::uint64_t first = *here & ~left & (right | beside);
-    const std::uint64_t last = *here & ~right & (left | beside);
-    *end = {first, last, key};
-    end += (first | last) != 0;
-  }
-  return static_cast<std::size_t>(end - found);
-}
-
 // The k-th beginning belongs to the k-th end.
-RunCounts scan_words(const Bitmap& bitmap, std::span<const PixelKey> words, EndWord* scratch,
-                     Run* runs, RunCounts counts) {
-  const std::size_t end_words = find_ends(bitmap, words, scratch);
-  for (std::size_t i = 0; i < end_words; ++i) {
-    const EndWord& word = scratch[i];
-    counts.firsts += write_positions<&Run::first>(word.first, word.key, runs + counts.firsts);
-    counts.lasts += write_positions<&Run::last>(word.last, word.key, runs + counts.lasts);
+RunCounts scan_groups(const Bitmap& bitmap, std::span<const PixelKey> groups, EndWords& ends,
+                      Run* runs, RunCounts counts) {
+  constexpr std::size_t kGroupWords = Bitmap::kGroupWords;
+  constexpr std::size_t kBits = Bitmap::kWordBits;
+  const std::size_t words = find_ends(bitmap, groups, ends);
+  for (std::size_t k = 0; k < words; ++k) {
+    const std::size_t i = ends.listed[k];
+    const PixelKey key = groups[i / kGroupWords] + static_cast<PixelKey>(i % kGroupWords * kBits);
+    counts.firsts += write_positions<&Run::first>(ends.first[i], key, runs + counts.firsts);
+    counts.lasts += write_positions<&Run::last>(ends.last[i], key, runs + counts.lasts);
   }
   return counts;
 }
 
-std::size_t count_runs(const Bitmap& bitmap, std::span<const PixelKey> words, EndWord* scratch) {
-  const std::size_t end_words = find_ends(bitmap, words, scratch);
+std::size_t count_runs(const Bitmap& bitmap, std::span<const PixelKey> groups, EndWords& ends) {
+  const std::size_t words = find_ends(bitmap, groups, ends);
   int count = 0;
-  for (std::size_t i = 0; i < end_words; ++i) count += std::popcount(scratch[i].first);
+  for (std::size_t k = 0; k < words; ++k) count += std::popcount(ends.first[ends.listed[k]]);
   return static_cast<std::size_t>(count);
 }
 
@@ -72,33 +116,32 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace dottrack::image {
 
-HWY_EXPORT(scan_words);
+HWY_EXPORT(scan_groups);
 HWY_EXPORT(count_runs);
 
 void RunList::clear() {
   counts_ = {};
   overflow_ = 0;
-  words_scanned_ = 0;
+  groups_scanned_ = 0;
   rows_searched_ = 0;
 }
 
 void RunList::scan(const Bitmap& bitmap, int y_end) {
   const std::span<const PixelKey> listed = bitmap.occupied();
-  const auto stop = std::lower_bound(listed.begin() + static_cast<std::ptrdiff_t>(words_scanned_),
+  const auto stop = std::lower_bound(listed.begin() + static_cast<std::ptrdiff_t>(groups_scanned_),
                                      listed.end(), y_end * kRowStep);
-  const auto words_end = static_cast<std::size_t>(stop - listed.begin());
+  const auto end = static_cast<std::size_t>(stop - listed.begin());
   if (overflow_ == 0) rows_searched_ = y_end;
-  while (words_scanned_ < words_end) {
-    const std::size_t count = std::min(words_end - words_scanned_, kMaxWords);
-    const std::span<const PixelKey> words = listed.subspan(words_scanned_, count);
-    words_scanned_ += count;
+  while (groups_scanned_ < end) {
+    const std::size_t count = std::min(end - groups_scanned_, EndWords::kMaxGroups);
+    const std::span<const PixelKey> groups = listed.subspan(groups_scanned_, count);
+    groups_scanned_ += count;
     if (overflow_ > 0) {
-      overflow_ += static_cast<std::uint32_t>(
-          HWY_DYNAMIC_DISPATCH(count_runs)(bitmap, words, end_words_.data()));
+      overflow_ +=
+          static_cast<std::uint32_t>(HWY_DYNAMIC_DISPATCH(count_runs)(bitmap, groups, ends_));
       continue;
     }
-    counts_ =
-        HWY_DYNAMIC_DISPATCH(scan_words)(bitmap, words, end_words_.data(), runs_.data(), counts_);
+    counts_ = HWY_DYNAMIC_DISPATCH(scan_groups)(bitmap, groups, ends_, runs_.data(), counts_);
     if (size() > kCapacity) take_back_rows_that_overflow();
   }
 }

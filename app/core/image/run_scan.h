@@ -16,17 +16,22 @@ struct Run {
   PixelKey last;
 };
 
-// One word's part of the runs: one bit for the first and for the last pixel of each.
-struct EndWord {
-  std::uint64_t first;
-  std::uint64_t last;
-  PixelKey key;
-};
-
 // A run may have begun in one word and end in another.
 struct RunCounts {
   std::size_t firsts = 0;
   std::size_t lasts = 0;
+};
+
+// The ends of runs, some groups of words at a time.
+struct EndWords {
+  static constexpr std::size_t kMaxGroups = 64;
+  static constexpr std::size_t kMaxWords = kMaxGroups * Bitmap::kGroupWords;
+
+  // Of each word: one bit for the first and for the last pixel of each run.
+  std::array<std::uint64_t, kMaxWords> first{};
+  std::array<std::uint64_t, kMaxWords> last{};
+  // Which of the words have runs.
+  std::array<std::uint8_t, kMaxWords + Bitmap::kGroupWords> listed{};
 };
 
 class RunList {
@@ -46,17 +51,16 @@ class RunList {
   int rows_searched() const { return rows_searched_; }
 
  private:
-  // So many words at a time: their runs surely fit behind the last.
-  static constexpr std::size_t kMaxWords = 256;
-  static constexpr std::size_t kSpare = kMaxWords * (Bitmap::kWordBits / 2) + 2;
+  // The runs of the words that are sought at a time surely fit behind the last.
+  static constexpr std::size_t kSpare = EndWords::kMaxWords * (Bitmap::kWordBits / 2) + 2;
 
   void take_back_rows_that_overflow();
 
-  std::array<EndWord, kMaxWords + 1> end_words_{};
+  EndWords ends_;
   std::array<Run, kCapacity + kSpare> runs_{};
   RunCounts counts_;
   std::uint32_t overflow_ = 0;
-  std::size_t words_scanned_ = 0;
+  std::size_t groups_scanned_ = 0;
   int rows_searched_ = 0;
 };
 
