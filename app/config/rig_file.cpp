@@ -117,8 +117,8 @@ class RigReader {
   void read_camera(const toml::table& table) {
     TableReader reader(
         complaint_, table, "[[camera]]",
-        {"name", "model", "distance_m", "intensity_dn", "min_contrast_dn", "background_px",
-         "polarity", "device", "exposure_ms", "gain", "stamp_offset_ms", "iris"});
+        {"name", "model", "distance_m", "intensity_dn", "min_contrast_dn", "min_contrast_part",
+         "background_px", "polarity", "device", "exposure_ms", "gain", "stamp_offset_ms", "iris"});
     CameraEntry entry;
     entry.name = reader.text("name");
     check_camera_name(reader, entry.name);
@@ -149,6 +149,7 @@ class RigReader {
     std::tie(camera.intensity_min_dn, camera.intensity_max_dn) =
         reader.integer_range("intensity_dn", {0, 255}, kIntensity);
     camera.min_contrast_dn = reader.integer("min_contrast_dn", 0, kContrast);
+    camera.min_contrast_part = reader.number("min_contrast_part", 0.0, kContrastPart);
     camera.background_px = reader.integer("background_px", 21, kBackground);
     if (camera.background_px % 2 == 0) {
       reader.complain("background_px", std::to_string(camera.background_px), kBackground.expected);
@@ -168,9 +169,10 @@ class RigReader {
   // With every intensity and no contrast asked for, the whole image would be one region.
   void check_selective(const TableReader& reader, const core::Camera& camera) {
     const bool any = camera.intensity_min_dn == 0 && camera.intensity_max_dn == 255;
-    if (!any || camera.min_contrast_dn > 0) return;
-    complaint_.add(reader.line("intensity_dn"), "this camera takes every pixel for a dot's",
-                   "intensity_dn narrower than [0, 255] or min_contrast_dn above 0");
+    if (!any || camera.min_contrast_dn > 0 || camera.min_contrast_part > 0.0) return;
+    complaint_.add(
+        reader.line("intensity_dn"), "this camera takes every pixel for a dot's",
+        "intensity_dn narrower than [0, 255], or min_contrast_dn or min_contrast_part above 0");
   }
 
   void read_tracking(const toml::table& table) {

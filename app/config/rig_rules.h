@@ -11,6 +11,7 @@ inline constexpr NumberRule kStep{0.0, 100.0, "a number of metres above 0 and up
 inline constexpr IntegerRule kIntensity{0, 255,
                                         "two whole numbers, 0 <= darkest <= brightest <= 255"};
 inline constexpr IntegerRule kContrast{0, 254, "a whole number from 0 to 254"};
+inline constexpr NumberRule kContrastPart{0.0, 4.0, "a number from 0 to 4", true};
 inline constexpr IntegerRule kBackground{3, 255, "an odd whole number from 3 to 255"};
 
 }  // namespace dottrack::config

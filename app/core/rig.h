@@ -22,7 +22,8 @@ struct Camera {
   int intensity_min_dn = 0;  // how bright a dot's pixels may be, both ends included
   int intensity_max_dn = 255;
   int min_contrast_dn = 0;  // > 0: a dot's pixels also differ by this much from the background
-  int background_px = 21;   // odd width of the surround whose mean is the background
+  double min_contrast_part = 0.0;  // > 0: and by this part of the background
+  int background_px = 21;          // odd width of the surround whose mean is the background
   Polarity polarity = Polarity::bright;
 };
 

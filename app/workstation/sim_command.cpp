@@ -33,7 +33,7 @@ struct SimCommand {
   std::uint64_t acquisitions = 0;
   std::uint64_t first = 0;
   int trial_ticks = TrialOptions{}.ticks;
-  double trial_speed_m_s = 0.0;
+  double trial_speed_m_s = TrialOptions{}.speed_m_s;
   bool fine = false;
   bool explain = false;
   unsigned threads = 0;

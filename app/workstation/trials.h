@@ -18,9 +18,10 @@ struct TrialOptions {
   std::filesystem::path out;
   std::uint64_t first = 0;  // index of the first placement
   std::uint64_t count = 0;
-  int ticks = 3;  // until there is a lock; the noise differs from tick to tick
-  // Of the vehicle from the first tick on, straight ahead; 0: it stands still.
-  double speed_m_s = 0.0;
+  int ticks = 10;  // until there must be a lock; the noise differs from tick to tick
+  // Of the vehicle from the first tick on, straight ahead; 0: it stands still. What is held back
+  // has to move before it is believed.
+  double speed_m_s = 0.5;
   // Pictures as a run's ticks have them, at a third of the speed.
   host_sim::Detail detail = host_sim::Detail::quick;
   // Called after every placement with those done; false ends the run there.

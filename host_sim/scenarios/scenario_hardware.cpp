@@ -98,9 +98,9 @@ void read_hardware(Complaint& complaint, TableReader& root, Scene& scene) {
 DotAppearance read_appearance(Complaint& complaint, const toml::table* table) {
   DotAppearance dots;
   if (table == nullptr) return dots;
-  TableReader reader(
-      complaint, *table, "[dots]",
-      {"distance_m", "intensity_dn", "min_contrast_dn", "background_px", "max_step_m"});
+  TableReader reader(complaint, *table, "[dots]",
+                     {"distance_m", "intensity_dn", "min_contrast_dn", "min_contrast_part",
+                      "background_px", "max_step_m"});
   if (reader.has("distance_m")) {
     std::tie(dots.distance_min_m, dots.distance_max_m) =
         reader.number_range("distance_m", config::kDistance);
@@ -108,6 +108,8 @@ DotAppearance read_appearance(Complaint& complaint, const toml::table* table) {
   std::tie(dots.intensity_min_dn, dots.intensity_max_dn) = reader.integer_range(
       "intensity_dn", {dots.intensity_min_dn, dots.intensity_max_dn}, config::kIntensity);
   dots.min_contrast_dn = reader.integer("min_contrast_dn", dots.min_contrast_dn, config::kContrast);
+  dots.min_contrast_part =
+      reader.number("min_contrast_part", dots.min_contrast_part, config::kContrastPart);
   dots.background_px = reader.integer("background_px", dots.background_px, config::kBackground);
   if (dots.background_px % 2 == 0) {
     reader.complain("background_px", std::to_string(dots.background_px),

@@ -31,6 +31,7 @@ struct DotAppearance {
   int intensity_min_dn = 30;
   int intensity_max_dn = 255;
   int min_contrast_dn = 12;
+  double min_contrast_part = 0.5;
   int background_px = 41;
   double max_step_m = 0.2;
 };

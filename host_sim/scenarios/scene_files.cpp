@@ -65,9 +65,11 @@ std::string rig_toml(const Scene& scene) {
   for (const SceneCamera& camera : scene.cameras) {
     text += fmt::format(
         "\n[[camera]]\nname = \"{0}\"\nmodel = \"{7}\"\ndistance_m = [{1:.3f}, {2:.3f}]\n"
-        "intensity_dn = [{3}, {4}]\nmin_contrast_dn = {5}\nbackground_px = {6}\n",
+        "intensity_dn = [{3}, {4}]\nmin_contrast_dn = {5}\n"
+        "min_contrast_part = {8}\nbackground_px = {6}\n",
         camera.name, dots.distance_min_m, dots.distance_max_m, dots.intensity_min_dn,
-        dots.intensity_max_dn, dots.min_contrast_dn, dots.background_px, model_file(camera));
+        dots.intensity_max_dn, dots.min_contrast_dn, dots.background_px, model_file(camera),
+        dots.min_contrast_part);
   }
   text += fmt::format(
       "\n[target]\nname = \"rover\"\ndots = \"target.csv\"\nupright = true\nmax_step_m = {:.3f}\n",

@@ -20,6 +20,8 @@ struct Band {
   int min_contrast_dn = 0;  // 0: the absolute band alone
   int background_px = 21;   // odd, 3 to 255; rounded to tiles: see LocalBackground
   core::Polarity polarity = core::Polarity::bright;
+  // Of the background, where that is more than min_contrast_dn; only beside one above 0.
+  int min_contrast_256ths = 0;
 };
 
 // Which regions may be dots, from their size and shape in the image.

@@ -35,6 +35,9 @@ struct Thresholds {
 // (dots of 7 px, noise of 6 DN, box of 21 px, contrast of 8 DN): they find no dot that this one
 // misses and let through up to half as much clutter again, since leaving out the bright half of
 // the noise lowers the mean.
+//
+// Light scales dots, their surround and the texture of both alike. A contrast that grows with the
+// background keeps the texture of what is brightly lit out, and lets dots in the shade in.
 class LocalBackground {
  public:
   static constexpr int kRowsAtATime = 2 * kTile_px;
@@ -65,11 +68,13 @@ class LocalBackground {
   void start_boxes(int row);
   void count_pixels();
   void stretch_means(std::size_t to);
+  void raise_means();
 
   ImageView image_;
   Window window_;
   Needed needed_ = {};
-  int reach_ = 0;  // tiles of a box to each side of its middle
+  int contrast_256ths_ = 0;  // of the background
+  int reach_ = 0;            // tiles of a box to each side of its middle
   // Of the tiles whose middles lie around the window, the first and how many; one on each side may
   // be outside the image.
   int first_ = 0;

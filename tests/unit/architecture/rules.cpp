@@ -34,7 +34,7 @@ const std::vector<Rule>& rules() {
       {"drivers/socketcan", {"drivers/socketcan", "hal", "rtos_shim"}, {"*"}},
 
       {"app/core", {"app/core", "hal/base"}, {"Eigen", "hwy"}},
-      {"app/core/geometry", {"app/core/geometry", "hal/base"}, {"Eigen"}},
+      {"app/core/geometry", {"app/core/geometry", "hal/base"}, {"Eigen", "hwy"}},
       // Two C files that are copied into other programs.
       {"app/core/protocol/receiver", {}, {"stdbool.h", "stddef.h", "stdint.h"}},
 

@@ -38,7 +38,8 @@ const std::string kResidualWords = "; expected a number of metres above 0 and up
 const std::string kLostWords = "; expected a whole number from 1 to 1000000";
 const std::string kNameWords = "; expected a folder's name of letters, digits, - and _";
 const std::string kCameraKeys =
-    "; expected one of name, model, distance_m, intensity_dn, min_contrast_dn, background_px, "
+    "; expected one of name, model, distance_m, intensity_dn, min_contrast_dn, "
+    "min_contrast_part, background_px, "
     "polarity, device, exposure_ms, gain, stamp_offset_ms, iris";
 
 INSTANTIATE_TEST_SUITE_P(
@@ -107,7 +108,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "rig.toml:12: polarity is \"black\"; expected bright or dark"},
         Mistake{"EveryPixelIsADot", "min_contrast_dn = 8", "min_contrast_dn = 0",
                 "rig.toml:14: this camera takes every pixel for a dot's; "
-                "expected intensity_dn narrower than [0, 255] or min_contrast_dn above 0"}),
+                "expected intensity_dn narrower than [0, 255], or min_contrast_dn or "
+                "min_contrast_part above 0"}),
     name_of);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -151,6 +153,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "rig.toml:10: min_contrast_dn is -1" + kContrastWords},
         Mistake{"ContrastTooHigh", "min_contrast_dn = 9", "min_contrast_dn = 255",
                 "rig.toml:10: min_contrast_dn is 255" + kContrastWords},
+        Mistake{"ContrastPartNegative", "min_contrast_dn = 9", "min_contrast_part = -0.1",
+                "rig.toml:10: min_contrast_part is -0.1; expected a number from 0 to 4"},
         Mistake{"ContrastFraction", "min_contrast_dn = 9", "min_contrast_dn = 8.5",
                 "rig.toml:10: min_contrast_dn is a number" + kContrastWords},
         Mistake{"ContrastBeyondEveryInteger", "min_contrast_dn = 9", "min_contrast_dn = 4294967304",

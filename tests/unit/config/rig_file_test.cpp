@@ -65,7 +65,7 @@ TEST(RigFile, HasADefaultForEveryKeyThatMayBeMissing) {
                "[[camera]]\nname = \"a\"\nmodel = \"cam1.cahv\"\ndistance_m = [2, 14]\n"
                "intensity_dn = [100, 255]\n"
                "[[camera]]\nname = \"b\"\nmodel = \"cam1.cahv\"\ndistance_m = [2, 14]\n"
-               "min_contrast_dn = 1\n"
+               "min_contrast_part = 0.25\n"
                "[target]\ndots = \"target.csv\"\n");
   const RigConfig config = load_or_fail(folder.rig());
   EXPECT_EQ(config.name, "rig");
@@ -80,6 +80,8 @@ TEST(RigFile, HasADefaultForEveryKeyThatMayBeMissing) {
   EXPECT_EQ(camera.intensity_min_dn, 0);
   EXPECT_EQ(camera.intensity_max_dn, 255);
   EXPECT_EQ(config.rig.cameras[0].min_contrast_dn, 0);
+  EXPECT_EQ(config.rig.cameras[0].min_contrast_part, 0.0);
+  EXPECT_EQ(config.rig.cameras[1].min_contrast_part, 0.25);
   EXPECT_EQ(camera.background_px, 21);
   EXPECT_EQ(camera.polarity, core::Polarity::bright);
 }

@@ -106,6 +106,7 @@ TEST_F(IdentifyReference, LocalBackgroundInWindowsAndBands) {
     const Picture picture = random_picture(random_, 120);
     Band band = random_band();
     band.min_contrast_dn = integer(random_, 1, 40);
+    band.min_contrast_256ths = i % 2 == 0 ? 0 : integer(random_, 1, 200);
     band.background_px = 2 * integer(random_, 1, 12) + 1;
     compare(picture, random_window(picture), band, random_gate());
   }

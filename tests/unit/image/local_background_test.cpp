@@ -27,7 +27,7 @@ class LocalBackgroundTest : public testing::Test {
       background_->extend(y_end);
       fill_band_rows(picture.view(), window, band, background_->thresholds(), y, y_end, *bitmap_);
     }
-    const PlainBackground plain(picture, band.background_px, band.polarity);
+    const PlainBackground plain(picture, band);
     for (int y = window.y_min; y <= window.y_max && !HasFatalFailure(); ++y) {
       for (int x = window.x_min; x <= window.x_max; ++x) check(picture, window, band, plain, x, y);
     }
@@ -73,6 +73,19 @@ TEST_F(LocalBackgroundTest, IsThatOfTheTilesForAnyBoxAndPolarity) {
   }
   EXPECT_GT(pixels_, 500000);
   EXPECT_GT(kept_, 50000);
+}
+
+TEST_F(LocalBackgroundTest, AContrastRelativeToItHolds) {
+  for (int i = 0; i < 400 && !HasFailure(); ++i) {
+    const Picture picture = random_picture(random_, 140);
+    check(picture, whole(picture),
+          {.min_contrast_dn = integer(random_, 1, 30),
+           .background_px = 2 * integer(random_, 1, 30) + 1,
+           .polarity = polarity_of(i),
+           .min_contrast_256ths = integer(random_, 1, i % 10 == 0 ? 1024 : 150)});
+  }
+  EXPECT_GT(pixels_, 500000);
+  EXPECT_GT(kept_, 20000);
 }
 
 TEST_F(LocalBackgroundTest, TheBandHoldsToo) {
@@ -153,7 +166,8 @@ TEST_F(LocalBackgroundTest, RoundsByLittleAndNeitherUpNorDown) {
   int pixels = 0;
   for (int i = 0; i < 60; ++i) {
     const Picture picture = random_picture(random_, 200);
-    const PlainBackground plain(picture, 2 * integer(random_, 1, 40) + 1, polarity_of(i));
+    const PlainBackground plain(
+        picture, {.background_px = 2 * integer(random_, 1, 40) + 1, .polarity = polarity_of(i)});
     for (int y = 0; y < picture.height_px(); ++y) {
       for (int x = 0; x < picture.width_px(); ++x) {
         const double difference = plain.at(x, y) - plain.exact(x, y);

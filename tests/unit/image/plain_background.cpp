@@ -37,10 +37,12 @@ double between(double a, double b, int eighths) {
 
 }  // namespace
 
-PlainBackground::PlainBackground(const Picture& picture, int background_px, core::Polarity polarity)
+PlainBackground::PlainBackground(const Picture& picture, const Band& band)
     : picture_(picture),
-      polarity_(polarity),
-      reach_(background_px / 16),
+      polarity_(band.polarity),
+      contrast_dn_(band.min_contrast_dn),
+      contrast_256ths_(band.min_contrast_256ths),
+      reach_(band.background_px / 16),
       columns_((picture.width_px() + kTile_px - 1) / kTile_px),
       rows_((picture.height_px() + kTile_px - 1) / kTile_px),
       means_(static_cast<std::size_t>(columns_ * rows_), -1.0) {}
@@ -71,12 +73,17 @@ double PlainBackground::middle(int tile_x, int tile_y) const {
   return mean;
 }
 
+int PlainBackground::raised(double mean) const {
+  const int rounded = static_cast<int>(std::nearbyint(mean));
+  const int light = polarity_ == core::Polarity::bright ? rounded : 255 - rounded;
+  const double relative = std::floor(light * contrast_256ths_ / 256.0 + 0.5);
+  return std::min(rounded + std::max(static_cast<int>(relative) - contrast_dn_, 0), 255);
+}
+
 int PlainBackground::at(int x, int y) const {
   const Place px(x);
   const Place py(y);
-  const auto rounded = [&](int i, int j) {
-    return static_cast<int>(std::nearbyint(middle(px.tile + i, py.tile + j)));
-  };
+  const auto rounded = [&](int i, int j) { return raised(middle(px.tile + i, py.tile + j)); };
   return up(down(rounded(0, 0), rounded(1, 0), px.eighths),
             down(rounded(0, 1), rounded(1, 1), px.eighths), py.eighths);
 }

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "app/core/rig.h"
+#include "app/core/image/identify.h"
 #include "tests/unit/image/pictures.h"
 
 namespace dottrack::image::test {
@@ -11,9 +11,10 @@ namespace dottrack::image::test {
 // Of a picture, or of the negative of one with dark dots.
 class PlainBackground {
  public:
-  PlainBackground(const Picture& picture, int background_px, core::Polarity polarity);
+  PlainBackground(const Picture& picture, const Band& band);
 
-  // By how much a pixel exceeds its background, towards the polarity.
+  // By how much a pixel exceeds its background, towards the polarity. Where a contrast relative to
+  // the background is more than the absolute one, the background counts as so much brighter.
   int excess(int x, int y) const;
   int at(int x, int y) const;
   // The same without rounding, interpolated in the middle of the pixel's 2 x 2.
@@ -23,9 +24,12 @@ class PlainBackground {
   int value(int x, int y) const;
   double mean_around(int tile_x, int tile_y) const;
   double middle(int tile_x, int tile_y) const;
+  int raised(double mean) const;
 
   const Picture& picture_;
   core::Polarity polarity_;
+  int contrast_dn_;
+  int contrast_256ths_;
   int reach_;
   int columns_;
   int rows_;

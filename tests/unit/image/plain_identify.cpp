@@ -23,7 +23,7 @@ class Plain {
   Plain(const Picture& picture, const Window& window, const Band& band)
       : picture_(picture),
         band_(band),
-        background_(picture, band.background_px, band.polarity),
+        background_(picture, band),
         x0_(std::max(window.x_min, 0)),
         y0_(std::max(window.y_min, 0)),
         x1_(std::min(window.x_max, picture.width_px() - 1)),
