@@ -66,20 +66,22 @@ image::RegionGate acquisition_gate(const core::Camera& camera, const geometry::O
 
 void take_sightings(const core::Target& target, const geometry::Optics& optics,
                     const image::Regions* regions, CameraView& view) {
-  view.sightings.clear();
-  if (regions == nullptr) return;
+  estimation::Sightings& sightings = view.sightings;
+  if (regions == nullptr) return sightings.clear();
   const estimation::DiameterRange dots = diameters(target);
+  // In place of those before: all that counts of one is written, so there is nothing to clear.
+  sightings.resize(regions->size());
+  std::size_t described = 0;
   for (std::size_t r = 0; r < regions->size(); ++r) {
     const image::Region& region = (*regions)[r];
     if (region.touches_border) continue;
-    view.sightings.emplace_back();
-    estimation::Sighting& sighting = view.sightings.back();
+    estimation::Sighting& sighting = sightings[described];
+    if (!estimation::describe_sighting(*view.camera, optics, dots, region, sighting)) continue;
     sighting.region = static_cast<std::uint16_t>(r);
-    if (!estimation::describe_sighting(*view.camera, optics, dots, region, sighting)) {
-      view.sightings.pop_back();
-    }
+    ++described;
   }
-  add_lines_of_sight(*view.camera, view.sightings);
+  sightings.resize(described);
+  add_lines_of_sight(*view.camera, sightings);
 }
 
 }  // namespace dottrack::acquisition

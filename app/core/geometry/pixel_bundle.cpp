@@ -60,6 +60,12 @@ HWY_INLINE void store(const Axis& a, PixelBundle::Axes& to, std::size_t i) {
   hn::Store(a.z, Lanes(), &to[2][i]);
 }
 
+HWY_INLINE Axis load(const PixelBundle::Axes& from, std::size_t i) {
+  const Lanes lanes;
+  return Axis(hn::Load(lanes, &from[0][i]), hn::Load(lanes, &from[1][i]),
+              hn::Load(lanes, &from[2][i]));
+}
+
 struct Model {
   HWY_INLINE explicit Model(const Cahvor& m)
       : a(m.a), h(m.h), v(m.v), o(m.o), r0(all(m.r.x())), r1(all(m.r.y())), r2(all(m.r.z())) {
@@ -74,35 +80,82 @@ struct Model {
   Vector r0, r1, r2;
 };
 
-// u with u (1 + r0) + b u^3 + c u^5 = 1, from where a lens of little distortion has it. A lane that
-// has settled stays as it is. Unknown where the lens bends so much that its image may fold.
-HWY_INLINE Mask shrink(const Model& m, Vector tau, Vector& u) {
-  const Vector one = all(1.0);
-  const Vector a = hn::Add(one, m.r0);
-  const Vector b = hn::Mul(m.r1, tau);
-  const Vector c = hn::Mul(m.r2, hn::Mul(tau, tau));
-  const Vector grown = hn::Add(a, hn::Add(b, c));
-  u = hn::IfThenElse(hn::Gt(grown, all(0.5)), hn::Div(one, grown), one);
-  const Vector b3 = hn::Mul(all(3.0), b);
-  const Vector c5 = hn::Mul(all(5.0), c);
-  Mask settled = hn::Lt(tau, tau);
-  Mask rising = hn::Gt(a, all(0.0));
-  for (int i = 0; i < kMostSteps && !hn::AllTrue(Lanes(), settled); ++i) {
+// What lies between the steps of a bundle, side by side.
+struct Bending {
+  alignas(64) PixelBundle::Numbers tau;
+  alignas(64) PixelBundle::Numbers u;  // 0: unknown
+  alignas(64) PixelBundle::Numbers w;
+  alignas(64) PixelBundle::Numbers ahead;
+  alignas(64) PixelBundle::Axes l;
+};
+
+// Newton steps wait for each other: so many vectors take theirs in turns.
+constexpr std::size_t kTogether = 4;
+static_assert(PixelBundle::kCapacity % (kTogether * hn::MaxLanes(Lanes())) == 0);
+
+struct Equation {
+  HWY_INLINE Equation() {}
+  HWY_INLINE Equation(const Model& m, Vector tau) {
+    const Vector one = all(1.0);
+    a = hn::Add(one, m.r0);
+    b = hn::Mul(m.r1, tau);
+    c = hn::Mul(m.r2, hn::Mul(tau, tau));
+    const Vector grown = hn::Add(a, hn::Add(b, c));
+    u = hn::IfThenElse(hn::Gt(grown, all(0.5)), hn::Div(one, grown), one);
+    b3 = hn::Mul(all(3.0), b);
+    c5 = hn::Mul(all(5.0), c);
+    settled = hn::Lt(tau, tau);
+    rising = hn::Gt(a, all(0.0));
+  }
+
+  HWY_INLINE Vector slope() const {
     const Vector u2 = hn::Mul(u, u);
-    const Vector slope = hn::Add(a, hn::Mul(u2, hn::Add(b3, hn::Mul(u2, c5))));
+    return hn::Add(a, hn::Mul(u2, hn::Add(b3, hn::Mul(u2, c5))));
+  }
+
+  // A lane that has settled stays as it is.
+  HWY_INLINE void take_step() {
+    const Vector u2 = hn::Mul(u, u);
+    const Vector down = slope();
     const Vector value = hn::Mul(u, hn::Add(a, hn::Mul(u2, hn::Add(b, hn::Mul(u2, c)))));
-    const Vector step = hn::Div(hn::Sub(value, one), slope);
+    const Vector step = hn::Div(hn::Sub(value, all(1.0)), down);
     const Vector next = hn::Sub(u, step);
-    rising = hn::And(rising, hn::Or(settled, hn::Gt(slope, all(0.0))));
+    rising = hn::And(rising, hn::Or(settled, hn::Gt(down, all(0.0))));
     u = hn::IfThenElse(settled, u, next);
     settled = hn::Or(settled, hn::Le(hn::Abs(step), hn::Mul(all(kLastStep), hn::Abs(next))));
   }
-  const Vector u2 = hn::Mul(u, u);
-  const Vector slope = hn::Add(a, hn::Mul(u2, hn::Add(b3, hn::Mul(u2, c5))));
-  const Mask dips = hn::And(hn::Lt(b, all(0.0)),
-                            hn::Gt(hn::Mul(all(10.0), hn::Mul(c, u2)), hn::Mul(all(-3.0), b)));
-  return hn::And(hn::And(settled, rising),
-                 hn::AndNot(dips, hn::And(hn::Gt(slope, all(0.0)), hn::Gt(u, all(0.0)))));
+
+  // u, or 0 where the lens bends so much that its image may fold.
+  HWY_INLINE Vector solution() const {
+    const Vector u2 = hn::Mul(u, u);
+    const Mask dips = hn::And(hn::Lt(b, all(0.0)),
+                              hn::Gt(hn::Mul(all(10.0), hn::Mul(c, u2)), hn::Mul(all(-3.0), b)));
+    const Mask known =
+        hn::And(hn::And(settled, rising),
+                hn::AndNot(dips, hn::And(hn::Gt(slope(), all(0.0)), hn::Gt(u, all(0.0)))));
+    return hn::IfThenElseZero(known, u);
+  }
+
+  Vector a, b, c, b3, c5, u;
+  Mask settled, rising;
+};
+
+// u with u (1 + r0) + b u^3 + c u^5 = 1, from where a lens of little distortion has it.
+HWY_INLINE void shrink(const Model& m, Bending& bending, std::size_t from) {
+  const Lanes lanes;
+  Equation equations[kTogether];
+  for (std::size_t k = 0; k < kTogether; ++k) {
+    equations[k] = Equation(m, hn::Load(lanes, &bending.tau[from + k * hn::Lanes(lanes)]));
+  }
+  Mask settled = equations[0].settled;
+  for (int i = 0; i < kMostSteps && !hn::AllTrue(lanes, settled); ++i) {
+    for (Equation& equation : equations) equation.take_step();
+    settled = equations[0].settled;
+    for (const Equation& equation : equations) settled = hn::And(settled, equation.settled);
+  }
+  for (std::size_t k = 0; k < kTogether; ++k) {
+    hn::Store(equations[k].solution(), lanes, &bending.u[from + k * hn::Lanes(lanes)]);
+  }
 }
 
 // CAHVOR's derivatives at a distance of one from the centre, as `project` has them.
@@ -129,32 +182,50 @@ HWY_INLINE Mask differentiate(const Model& m, const Axis& d, Vector px, Vector p
   return hn::And(hn::And(hn::Gt(w, least), hn::Gt(range, least)), hn::Gt(dot(d, m.a), least));
 }
 
-void unproject_all(const Cahvor& cahvor, PixelBundle& bundle) {
+HWY_INLINE void bend(const Model& m, const PixelBundle& bundle, std::size_t i, Bending& bending) {
   const Lanes lanes;
+  const Vector px = hn::Load(lanes, &bundle.x[i]);
+  const Vector py = hn::Load(lanes, &bundle.y[i]);
+  const Axis g = m.at_zero + px * m.by_x + py * m.by_y;
+  const Vector w = dot(g, m.o);
+  const Axis l = g - w * m.o;
+  hn::Store(hn::Div(dot(l, l), hn::Mul(w, w)), lanes, &bending.tau[i]);
+  hn::Store(w, lanes, &bending.w[i]);
+  hn::Store(dot(g, m.a), lanes, &bending.ahead[i]);
+  store(l, bending.l, i);
+}
+
+HWY_INLINE void unbend(const Model& m, const Bending& bending, std::size_t i, PixelBundle& bundle) {
+  const Lanes lanes;
+  const Vector w = hn::Load(lanes, &bending.w[i]);
+  const Vector u = hn::Load(lanes, &bending.u[i]);
+  const Vector zero = hn::Zero(lanes);
+  Mask known = hn::And(hn::Gt(w, zero), hn::Gt(hn::Load(lanes, &bending.ahead[i]), zero));
+  known = hn::And(known, hn::Gt(u, zero));
+  const Axis along = w * m.o + u * load(bending.l, i);
+  const Axis d = hn::Div(all(1.0), hn::Sqrt(dot(along, along))) * along;
+  Axis x_per_rad;
+  Axis y_per_rad;
+  known = hn::And(known, differentiate(m, d, hn::Load(lanes, &bundle.x[i]),
+                                       hn::Load(lanes, &bundle.y[i]), x_per_rad, y_per_rad));
+  store(d, bundle.direction, i);
+  store(x_per_rad, bundle.x_per_rad, i);
+  store(y_per_rad, bundle.y_per_rad, i);
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(lanes, known, bits);
+  for (std::size_t k = 0; k < hn::Lanes(lanes); ++k) {
+    bundle.known[i + k] = static_cast<std::uint8_t>((bits[0] >> k) & 1U);
+  }
+}
+
+void unproject_all(const Cahvor& cahvor, PixelBundle& bundle) {
+  const std::size_t step = hn::Lanes(Lanes());
   const Model m(cahvor);
-  for (std::size_t i = 0; i < bundle.size; i += hn::Lanes(lanes)) {
-    const Vector px = hn::Load(lanes, &bundle.x[i]);
-    const Vector py = hn::Load(lanes, &bundle.y[i]);
-    const Axis g = m.at_zero + px * m.by_x + py * m.by_y;
-    const Vector w = dot(g, m.o);
-    const Axis l = g - w * m.o;
-    const Vector tau = hn::Div(dot(l, l), hn::Mul(w, w));
-    Vector u;
-    Mask known = hn::And(hn::Gt(w, all(0.0)), hn::Gt(dot(g, m.a), all(0.0)));
-    known = hn::And(known, shrink(m, tau, u));
-    const Axis along = w * m.o + u * l;
-    const Axis d = hn::Div(all(1.0), hn::Sqrt(dot(along, along))) * along;
-    Axis x_per_rad;
-    Axis y_per_rad;
-    known = hn::And(known, differentiate(m, d, px, py, x_per_rad, y_per_rad));
-    store(d, bundle.direction, i);
-    store(x_per_rad, bundle.x_per_rad, i);
-    store(y_per_rad, bundle.y_per_rad, i);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(lanes, known, bits);
-    for (std::size_t k = 0; k < hn::Lanes(lanes); ++k) {
-      bundle.known[i + k] = static_cast<std::uint8_t>((bits[0] >> k) & 1U);
-    }
+  Bending bending;
+  for (std::size_t from = 0; from < bundle.size; from += kTogether * step) {
+    for (std::size_t k = 0; k < kTogether; ++k) bend(m, bundle, from + k * step, bending);
+    shrink(m, bending, from);
+    for (std::size_t k = 0; k < kTogether; ++k) unbend(m, bending, from + k * step, bundle);
   }
 }
 
