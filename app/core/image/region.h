@@ -7,10 +7,10 @@
 namespace dottrack::image {
 
 struct Region {
-  // Centroid, pixels. A pixel weighs one more than it exceeds what it needed to be in band: the local
-  // background at its place and the contrast to it, and the near end of the absolute band (bright:
-  // intensity_min_dn), whichever asks for more. So a pixel at the threshold weighs little and a flat
-  // region's centroid is that of its area; a slope of light does not move it.
+  // Centroid, pixels. A pixel weighs one more than it exceeds what it needed to be in band: the
+  // local background at its place and the contrast to it, and the near end of the absolute band
+  // (bright: intensity_min_dn), whichever asks for more. So a pixel at the threshold weighs little
+  // and a flat region's centroid is that of its area; a slope of light does not move it.
   Eigen::Vector2d centroid_px = Eigen::Vector2d::Zero();
   // Semi-axes of the uniform ellipse with the same second moments, pixels, and the angle of the
   // major axis from +x towards +y, radians in (-pi/2, pi/2].
