@@ -213,8 +213,9 @@ HWY_INLINE void unbend(const Model& m, const Bending& bending, std::size_t i, Pi
   store(y_per_rad, bundle.y_per_rad, i);
   std::uint8_t bits[8] = {};
   hn::StoreMaskBits(lanes, known, bits);
+  const unsigned known_bits = bits[0];
   for (std::size_t k = 0; k < hn::Lanes(lanes); ++k) {
-    bundle.known[i + k] = static_cast<std::uint8_t>((bits[0] >> k) & 1U);
+    bundle.known[i + k] = static_cast<std::uint8_t>((known_bits >> k) & 1U);
   }
 }
 
