@@ -8,9 +8,7 @@
 
 #include "app/workstation/sim_command.h"
 #include "app/workstation/trial_summary.h"
-#include "tests/sim/small_scenario.h"
-#include "tests/support/program_run.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/sim/sim_command_fixture.h"
 #include "tests/support/text_of.h"
 #include "tests/unit/workstation/json_check.h"
 
@@ -25,20 +23,7 @@ using testing::HasSubstr;
 constexpr std::size_t kLockableField = 9;  // of a line of acquisitions.csv
 constexpr std::size_t kOutcomeField = 11;
 
-ProgramRun run_sim(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "sim");
-  return test::run_program(add_sim_command, std::move(arguments));
-}
-
-class Acquisitions : public testing::Test {
- protected:
-  std::string scenario(const std::string& more = "") const {
-    return folder_.write("small.toml", small_scenario(more)).string();
-  }
-  fs::path at(const std::string& name) const { return folder_.path() / name; }
-
-  test::TemporaryFolder folder_;
-};
+class Acquisitions : public SmallScenario {};
 
 TEST_F(Acquisitions, AreCountedByWhatCouldBeSeen) {
   const ProgramRun run = run_sim(

@@ -11,9 +11,7 @@
 #include <thread>
 
 #include "app/workstation/replay_command.h"
-#include "tests/sim/small_scenario.h"
-#include "tests/support/program_run.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/sim/sim_command_fixture.h"
 #include "tests/support/text_of.h"
 #include "tests/unit/workstation/json_check.h"
 
@@ -25,20 +23,7 @@ using test::ProgramRun;
 using test::small_scenario;
 using testing::HasSubstr;
 
-ProgramRun run_sim(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "sim");
-  return test::run_program(add_sim_command, std::move(arguments));
-}
-
-class SimCommand : public testing::Test {
- protected:
-  std::string scenario(const std::string& more = "") const {
-    return folder_.write("small.toml", small_scenario(more)).string();
-  }
-  fs::path at(const std::string& name) const { return folder_.path() / name; }
-
-  test::TemporaryFolder folder_;
-};
+class SimCommand : public SmallScenario {};
 
 TEST_F(SimCommand, LeavesPosesTruthPlotsPicturesAndAReport) {
   const ProgramRun run = run_sim({scenario(), "--out", at("out").string()});
