@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"crane_lines", 30, 30, 1.2, 2.5, 0.2}, Case{"survey_grid", 60, 36, 2.5, 5.0, 0.5},
         Case{"occlusion", 100, 95, 8.0, 48.0, 5.0}, Case{"kidnap", 60, 54, 2.0, 4.0, 0.4},
         Case{"two_views", 10, 10, 2.5, 4.0, 0.3}, Case{"camera_faults", 60, 57, 4.0, 12.0, 0.9},
-        Case{"three_dots", 30, 27, 6.0, 14.0, 1.5}, Case{"eight_dots", 30, 30, 5.0, 14.0, 1.2}),
+        Case{"three_dots", 30, 29, 6.0, 14.0, 1.5}, Case{"eight_dots", 30, 30, 5.0, 14.0, 1.2}),
     [](const auto& scenario) { return std::string(scenario.param.scenario); });
 
 // Nobody there but look-alikes, and one who walks about.
