@@ -63,6 +63,19 @@ TEST_F(WatchTest, AWrongLockLivesForThreeTicksAtMost) {
   EXPECT_LE(result.false_lock_probability, room_.rig.limits.max_false_lock_probability);
 }
 
+TEST_F(WatchTest, AWrongLabellingInTheSamePlaceDoesNotStay) {
+  // The look-alike of the vehicle turned round: their dots are each other's clutter.
+  decoy_ = PaintedRoom::pose_at(4.2, 3.0, 0.3);
+  vehicle_ = PaintedRoom::pose_at(4.3, 3.1, 0.3 + 2.1);
+  Tracker tracker(room_.rig);
+  be_led_astray(tracker);
+  for (int tick = 1; tick < 20; ++tick) {
+    const TickResult& result = tracker.step(room_.frames());
+    if (tick < 3 || !result.has_pose) continue;
+    EXPECT_TRUE(is_at(result, vehicle_)) << tick;
+  }
+}
+
 TEST_F(WatchTest, WithoutTheWatchAWrongLockStays) {
   room_.rig.limits.watch_every_ticks = 0;
   Tracker tracker(room_.rig);
