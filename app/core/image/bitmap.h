@@ -31,6 +31,10 @@ class Bitmap {
   static constexpr int kWordBits = 64;
   static constexpr int kGroupWords = 4;
   static constexpr int kRowWords = kRowStep / kWordBits;  // from one row to the next
+  static constexpr std::size_t kMaxGroups =
+      static_cast<std::size_t>((core::kMaxImageWidth + kWordBits * kGroupWords - 1) /
+                               (kWordBits * kGroupWords)) *
+      core::kMaxImageHeight;
 
   // Forgets what was listed and clears the rows above and below; the rows are left to be filled.
   void reshape(int width_px, int height_px);
@@ -48,9 +52,12 @@ class Bitmap {
 
   // The word that begins with this pixel.
   const std::uint64_t* word(PixelKey key) const { return row(0) + (key >> 6); }
+  std::uint64_t* word(PixelKey key) { return row(0) + (key >> 6); }
 
   // First pixels of the groups that are not zero, row by row.
   std::span<const PixelKey> occupied() const { return {occupied_.data(), occupied_count_}; }
+  // How many of these lie above row y; `at_least`: so many do.
+  std::size_t groups_before(int y, std::size_t at_least) const;
   // To list more: where the list ends, and where it ends then.
   PixelKey* occupied_end() { return occupied_.data() + occupied_count_; }
   void set_occupied_end(const PixelKey* end) {
@@ -68,11 +75,11 @@ class Bitmap {
   int height_px_ = 0;
   int words_per_row_ = 0;
   std::size_t occupied_count_ = 0;
-  std::array<std::uint64_t, 1 + static_cast<std::size_t>(kRowWords) * (core::kMaxImageHeight + 2)>
+  static constexpr int kRowsBeyond = 8;  // who looks for the end of something may look so far
+  std::array<std::uint64_t,
+             1 + static_cast<std::size_t>(kRowWords) * (core::kMaxImageHeight + 2 + kRowsBeyond)>
       words_{};
-  static constexpr int kGroupBits = kWordBits * kGroupWords;
-  static constexpr std::size_t kMaxRowGroups = (core::kMaxImageWidth + kGroupBits - 1) / kGroupBits;
-  std::array<PixelKey, kMaxRowGroups * core::kMaxImageHeight + 1> occupied_{};
+  std::array<PixelKey, kMaxGroups + 1> occupied_{};
 };
 
 }  // namespace dottrack::image

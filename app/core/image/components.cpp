@@ -55,15 +55,10 @@ void Components::append(std::uint32_t label, std::uint32_t run, const Run& ends)
   component.y_max = static_cast<std::int16_t>(row(ends.first));
 }
 
-void Components::clear() {
+void Components::connect(const RunList& runs) {
   size_ = 0;
-  runs_taken_ = 0;
-  above_ = 0;
-}
-
-void Components::extend(const RunList& runs) {
-  std::uint32_t above = above_;
-  for (std::uint32_t i = runs_taken_; i < runs.size(); ++i) {
+  std::uint32_t above = 0;  // no run before it touches the next run from above
+  for (std::uint32_t i = 0; i < runs.size(); ++i) {
     const Run run = runs[i];
     next_run_[i] = kEnd;
     while (runs[above].last < run.first - kRowStep) ++above;
@@ -77,8 +72,6 @@ void Components::extend(const RunList& runs) {
     append(label, i, run);
     label_[i] = label;
   }
-  above_ = above;
-  runs_taken_ = static_cast<std::uint32_t>(runs.size());
 }
 
 }  // namespace dottrack::image

@@ -25,9 +25,7 @@ class Components {
  public:
   static constexpr std::uint32_t kEnd = 0xFFFFFFFFU;
 
-  void clear();
-  // Takes in the runs that were added to the list since.
-  void extend(const RunList& runs);
+  void connect(const RunList& runs);
 
   // Components in the order of their first pixels; those with parent != index were merged.
   std::size_t size() const { return size_; }
@@ -45,8 +43,6 @@ class Components {
   std::array<std::uint32_t, RunList::kCapacity> label_{};
   std::array<std::uint32_t, RunList::kCapacity> next_run_{};
   std::size_t size_ = 0;
-  std::uint32_t runs_taken_ = 0;
-  std::uint32_t above_ = 0;  // no run before it touches the next run from above
 };
 
 }  // namespace dottrack::image

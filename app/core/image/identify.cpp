@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <limits>
 
 #include "app/core/image/band_bitmap.h"
 #include "app/core/image/bitmap.h"
@@ -12,6 +14,7 @@
 #include "app/core/image/moments.h"
 #include "app/core/image/region_sums.h"
 #include "app/core/image/run_scan.h"
+#include "app/core/image/small_components.h"
 
 namespace dottrack::image {
 
@@ -50,6 +53,17 @@ PixelWeights weights_of(const Band& band) {
   return {-1, 1 + std::min(band.intensity_max_dn, 255)};
 }
 
+// Behind the last pixel of any image.
+constexpr PixelKey kNever = std::numeric_limits<PixelKey>::max();
+
+Candidate candidate_of(const SmallComponent& small) {
+  const auto x_max = static_cast<std::int16_t>(small.x_min + small.width_px - 1);
+  const auto y_max = static_cast<std::int16_t>(small.y_min + small.height_px - 1);
+  return {{0, Components::kEnd, Components::kEnd, std::popcount(small.bits), small.x_min, x_max,
+           small.y_min, y_max},
+          small.bits};
+}
+
 }  // namespace
 
 struct Identifier::Memory {
@@ -59,16 +73,22 @@ struct Identifier::Memory {
   Thresholds thresholds_of(const Search& search) const {
     return search.has_background() ? background.thresholds() : Thresholds{};
   }
+  // Of those that have not been judged.
+  struct NextComponents {
+    std::size_t small = 0;
+    std::size_t large = 0;
+  };
+
   void find_components(const Search& search);
-  void take_rows(int y_end);
   IdentifyCounts pick_regions(const Search& search, const RegionGate& gate, Regions& regions);
-  std::size_t next_batch(const SizeBounds& bounds, std::size_t& next, IdentifyCounts& counts);
+  std::size_t next_batch(const SizeBounds& bounds, NextComponents& next, IdentifyCounts& counts);
 
   Bitmap bitmap;
   LocalBackground background;
+  SmallComponents small;
   RunList runs;
   Components components;
-  std::array<std::uint32_t, kBatch> batch;
+  std::array<Candidate, kBatch> batch;
   std::array<RegionSums, kBatch> batch_sums;
   Moments moments;
 };
@@ -80,41 +100,51 @@ std::size_t Identifier::footprint_bytes() const {
   return sizeof(*this) + sizeof(Memory);
 }
 
-void Identifier::Memory::take_rows(int y_end) {
-  runs.scan(bitmap, y_end);
-  components.extend(runs);
-}
-
-// A few rows at a time: while runs are sought in them, the next ones come from memory.
+// A few rows at a time: while something is sought in them, the next ones come from memory. Small
+// components first, then the runs that are left; where there is no room for a box, all are runs.
 void Identifier::Memory::find_components(const Search& search) {
   constexpr int kRowsAtATime = LocalBackground::kRowsAtATime;
+  constexpr int kSide = SmallComponent::kSide_px;
   const int height = search.height_px();
+  const bool has_room = std::min(search.width_px(), height) >= kSide;
   bitmap.reshape(search.width_px(), height);
-  runs.clear();
-  components.clear();
+  small.clear();
   if (search.has_background()) background.start(search.image, search.window, search.band);
   const Thresholds thresholds = thresholds_of(search);
   for (int y = 0; y < height; y += kRowsAtATime) {
     const int y_end = std::min(y + kRowsAtATime, height);
     if (search.has_background()) background.extend(y_end);
     fill_band_rows(search.image, search.window, search.band, thresholds, y, y_end, bitmap);
-    take_rows(y_end < height ? y_end - 1 : height);
+    if (has_room) small.take(bitmap, y_end < height ? y_end - kSide : height);
   }
+  if (has_room) small.finish(bitmap);
+  runs.scan(bitmap, has_room ? small.groups_left() : bitmap.occupied());
+  components.connect(runs);
 }
 
-// The next candidates that the cheap gates let through; returns how many.
-std::size_t Identifier::Memory::next_batch(const SizeBounds& bounds, std::size_t& next,
+// The next candidates that the cheap gates let through, in the order of their first pixels; returns
+// how many.
+std::size_t Identifier::Memory::next_batch(const SizeBounds& bounds, NextComponents& next,
                                            IdentifyCounts& counts) {
   std::size_t count = 0;
-  for (; next < components.size() && count < kBatch; ++next) {
-    if (!components.is_root(next)) continue;
+  const auto take = [&](const Candidate& candidate) {
+    batch[count] = candidate;
     ++counts.components;
-    batch[count] = static_cast<std::uint32_t>(next);
-    if (bounds.exclude(components[next])) {
-      ++counts.rejected_size;
-    } else {
-      ++count;
+    const bool excluded = bounds.exclude(candidate.component);
+    counts.rejected_size += excluded ? 1U : 0U;
+    count += excluded ? 0U : 1U;
+  };
+  while (count < kBatch) {
+    while (next.large < components.size() && !components.is_root(next.large)) ++next.large;
+    const bool is_large = next.large < components.size();
+    const PixelKey large_first = is_large ? runs[components[next.large].head].first : kNever;
+    for (; next.small < small.size() && small[next.small].first < large_first && count < kBatch;
+         ++next.small) {
+      counts.runs += small[next.small].height_px;
+      take(candidate_of(small[next.small]));
     }
+    if (count == kBatch || !is_large) break;
+    take({components[next.large++], 0});
   }
   return count;
 }
@@ -129,13 +159,14 @@ IdentifyCounts Identifier::Memory::pick_regions(const Search& search, const Regi
   IdentifyCounts counts;
   counts.runs = static_cast<std::uint32_t>(runs.size());
   counts.overflow_runs = runs.overflow();
-  std::size_t next = 0;
+  NextComponents next;
   while (const std::size_t count = next_batch(bounds, next, counts)) {
-    const std::span<const std::uint32_t> which{batch.data(), count};
+    const std::span<const Candidate> candidates{batch.data(), count};
     const std::span<RegionSums> sums{batch_sums.data(), count};
-    sum_regions(of, which, sums.data());
+    sum_regions(of, candidates, sums.data());
     measure(sums, weights, moments);
-    judge({search.image, search.window, of, weights, which, sums, moments}, gate, regions, counts);
+    judge({search.image, search.window, of, weights, candidates, sums, moments}, gate, regions,
+          counts);
   }
   return counts;
 }

@@ -73,7 +73,7 @@ Eigen::Vector2d centroid_of(const Candidates& of, const Component& component, st
 
 void judge_one(const Candidates& of, const RegionGate& gate, std::size_t i, Regions& regions,
                IdentifyCounts& counts) {
-  const Component& component = of.of.components[of.which[i]];
+  const Component& component = of.all[i].component;
   if (!passes_size(gate, component.area_px, of.moments, i)) {
     ++counts.rejected_size;
     return;
@@ -106,7 +106,7 @@ void judge_one(const Candidates& of, const RegionGate& gate, std::size_t i, Regi
 
 void judge(const Candidates& candidates, const RegionGate& gate, Regions& regions,
            IdentifyCounts& counts) {
-  for (std::size_t i = 0; i < candidates.which.size(); ++i) {
+  for (std::size_t i = 0; i < candidates.all.size(); ++i) {
     judge_one(candidates, gate, i, regions, counts);
   }
 }

@@ -12,13 +12,13 @@
 
 namespace dottrack::image {
 
-// Components of a window of the image, with their sums and moments in the order of `which`.
+// Candidates in a window of the image, with their sums and moments.
 struct Candidates {
   const ImageView& image;
   const Window& window;
   const SumsOf& of;
   const PixelWeights& weights;
-  std::span<const std::uint32_t> which;
+  std::span<const Candidate> all;
   std::span<RegionSums> sums;
   const Moments& moments;
 };

@@ -113,19 +113,10 @@ HWY_INLINE void reduce(const ColumnSums* columns, RegionSums& sums) {
     saturated = products(c.saturated_, one, saturated);
     faintest = hn::Max(faintest, c.faintest_);
   }
-  store(totals(x, y, xx, xy), sums.of.data());
+  store(totals(x, xx, y, xy), sums.of.data());
   store(totals(yy, v, vx, vy), sums.of.data() + RegionSums::kYy);
   sums.saturated_px = hn::GetLane(hn::SumOfLanes(kQuads, saturated));
   sums.faintest_dn = hn::GetLane(hn::MaxOfLanes(kColumns, faintest));
-}
-
-// From x counted from one column to x counted from a column d further right.
-HWY_INLINE void move_origin(double d, RegionSums& sums) {
-  auto& of = sums.of;
-  of[RegionSums::kXx] += d * (d * sums.n - 2.0 * of[RegionSums::kX]);
-  of[RegionSums::kXy] -= d * of[RegionSums::kY];
-  of[RegionSums::kX] -= d * sums.n;
-  of[RegionSums::kVx] -= d * of[RegionSums::kV];
 }
 
 // The first column of so many vectors that they hold the component; -1 if they cannot.
@@ -168,7 +159,7 @@ HWY_INLINE void sum(const SumsOf& of, const Component& component, int first_colu
   }
   reduce<kVectors>(columns, sums);
   if (component.x_min != first_column) [[unlikely]] {
-    move_origin(component.x_min - first_column, sums);
+    sums.move_corner(component.x_min - first_column, 0);
   }
   if (of.polarity == core::Polarity::bright) sums.faintest_dn = 255 - sums.faintest_dn;
 }

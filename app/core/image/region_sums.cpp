@@ -10,6 +10,7 @@
 // After foreach_target.h, by its rules.
 #include <hwy/highway.h>
 
+#include "app/core/image/box_sums-inl.h"
 #include "app/core/image/narrow_sums-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -157,8 +158,8 @@ HWY_INLINE void sum_outline(const SumsOf& of, const Component& component, Region
     yy += n * row_y * row_y;
   }
   sums.of = {static_cast<double>(x / 2),
-             static_cast<double>(y),
              static_cast<double>(xx / 12),
+             static_cast<double>(y),
              static_cast<double>(xy / 2),
              static_cast<double>(yy),
              1.0,
@@ -167,21 +168,25 @@ HWY_INLINE void sum_outline(const SumsOf& of, const Component& component, Region
   sums.has_values = false;
 }
 
-void sum_component(const SumsOf& of, const Component& component, RegionSums& sums) {
-  sums.has_values = true;
+void sum_runs(const SumsOf& of, const Component& component, RegionSums& sums) {
 #if HWY_TARGET != HWY_SCALAR  // one lane holds no columns
   if (narrow::try_sum<1>(of, component, sums) || narrow::try_sum<2>(of, component, sums)) return;
 #endif
   sum_outline(of, component, sums);
 }
 
-void sum_all(const SumsOf& of, std::span<const std::uint32_t> which, RegionSums* sums) {
-  for (const std::uint32_t i : which) {
-    const Component& component = of.components[i];
+void sum_all(const SumsOf& of, std::span<const Candidate> candidates, RegionSums* sums) {
+  for (const Candidate& candidate : candidates) {
+    const Component& component = candidate.component;
     sums->n = component.area_px;
     sums->width = component.x_max - component.x_min + 1;
     sums->height = component.y_max - component.y_min + 1;
-    sum_component(of, component, *sums);
+    sums->has_values = true;
+    if (candidate.box_bits != 0) {
+      box::sum(of, component, candidate.box_bits, *sums);
+    } else {
+      sum_runs(of, component, *sums);
+    }
     ++sums;
   }
 }
@@ -193,11 +198,21 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace dottrack::image {
 
+void RegionSums::move_corner(int dx, int dy) {
+  of[kXx] += dx * (1.0 * dx * n - 2.0 * of[kX]);
+  of[kXy] += dx * (1.0 * dy * n - of[kY]) - dy * of[kX];
+  of[kYy] += dy * (1.0 * dy * n - 2.0 * of[kY]);
+  of[kX] -= 1.0 * dx * n;
+  of[kY] -= 1.0 * dy * n;
+  of[kVx] -= dx * of[kV];
+  of[kVy] -= dy * of[kV];
+}
+
 HWY_EXPORT(sum_all);
 HWY_EXPORT(sum_any_values);
 
-void sum_regions(const SumsOf& of, std::span<const std::uint32_t> which, RegionSums* sums) {
-  HWY_DYNAMIC_DISPATCH(sum_all)(of, which, sums);
+void sum_regions(const SumsOf& of, std::span<const Candidate> candidates, RegionSums* sums) {
+  HWY_DYNAMIC_DISPATCH(sum_all)(of, candidates, sums);
 }
 
 void sum_values(const SumsOf& of, const Component& component, RegionSums& sums) {

@@ -16,7 +16,7 @@ namespace dottrack::image {
 
 // x and y count from the corner of the component's bounding box. All integers, and exact.
 struct RegionSums {
-  enum Sum : std::size_t { kX, kY, kXx, kXy, kYy, kV, kVx, kVy };  // v: a pixel's value
+  enum Sum : std::size_t { kX, kXx, kY, kXy, kYy, kV, kVx, kVy };  // v: a pixel's value
 
   std::array<double, 8> of = {};
   double saturated_px = 0.0;  // pixels at 255
@@ -25,6 +25,9 @@ struct RegionSums {
   int n = 0;
   int width = 0;  // of the bounding box
   int height = 0;
+
+  // From a corner to one that is so much further right and down.
+  void move_corner(int dx, int dy);
 };
 
 // What the sums are of: `pixels` is the image inside the searched window. Its values are the pixels
@@ -37,9 +40,16 @@ struct SumsOf {
   const Components& components;
 };
 
-// The sums of components[which[i]] to sums[i]: of large ones without the values, which cost as much
-// as they have pixels, and few turn out to be dots.
-void sum_regions(const SumsOf& of, std::span<const std::uint32_t> which, RegionSums* sums);
+// What may be a dot.
+struct Candidate {
+  Component component;
+  // Of a small component, whose box these are: see SmallComponent. It has no runs. 0: all others.
+  std::uint64_t box_bits;
+};
+
+// The sums of candidates[i] to sums[i]: of large ones without the values, which cost as much as
+// they have pixels, and few turn out to be dots.
+void sum_regions(const SumsOf& of, std::span<const Candidate> candidates, RegionSums* sums);
 
 // Adds the values.
 void sum_values(const SumsOf& of, const Component& component, RegionSums& sums);

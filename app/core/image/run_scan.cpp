@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "app/core/image/run_scan.cpp"
@@ -19,21 +18,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Words = hn::CappedTag<std::uint64_t, Bitmap::kGroupWords>;
 constexpr Words kWords;
-
-// Which of four bits are set, a byte each, and garbage behind them.
-constexpr std::array<std::uint32_t, 16> set_bits_of_four() {
-  std::array<std::uint32_t, 16> table{};
-  for (unsigned bits = 0; bits < table.size(); ++bits) {
-    unsigned shift = 0;
-    for (unsigned bit = 0; bit < 4; ++bit) {
-      if ((bits >> bit & 1U) == 0) continue;
-      table[bits] |= bit << shift;
-      shift += 8;
-    }
-  }
-  return table;
-}
-constexpr std::array<std::uint32_t, 16> kSetBits = set_bits_of_four();
 
 // Finds the ends of runs in a group. A run begins (ends) at a pixel with a neighbour whose left
 // (right) neighbour is clear. Returns a bit for each word: whether it has an end.
@@ -65,27 +49,18 @@ std::size_t find_ends(const Bitmap& bitmap, std::span<const PixelKey> groups, En
   for (const PixelKey group : groups) {
     const unsigned some =
         find_ends_in(bitmap.word(group), found.first.data() + at, found.last.data() + at);
-    const std::uint32_t words = kSetBits[some] + 0x01010101U * static_cast<std::uint32_t>(at);
-    std::memcpy(found.listed.data() + count, &words, sizeof(words));
-    count += static_cast<std::size_t>(std::popcount(some));
+    count += list_set_bits(some, at, found.listed.data() + count);
     at += Bitmap::kGroupWords;
   }
   return count;
 }
 
-// Writes the positions of the set bits, and garbage behind them; returns how many. Two without a
-// branch: more in one word are rare, and whether there are none, one or two cannot be predicted.
 template <PixelKey Run::*kEnd>
-HWY_INLINE std::size_t write_positions(std::uint64_t bits, PixelKey key, Run* runs) {
-  const std::uint64_t second = bits & (bits - 1);
-  runs[0].*kEnd = key + std::countr_zero(bits);
-  runs[1].*kEnd = key + std::countr_zero(second);
-  std::uint64_t rest = second & (second - 1);
-  for (Run* run = runs + 2; rest != 0; rest &= rest - 1) {
-    (run++)->*kEnd = key + std::countr_zero(rest);
-  }
-  return static_cast<std::size_t>(std::popcount(bits));
-}
+struct EndOf {
+  Run* runs;
+
+  PixelKey& operator[](int i) const { return runs[i].*kEnd; }
+};
 
 // The k-th beginning belongs to the k-th end.
 RunCounts scan_groups(const Bitmap& bitmap, std::span<const PixelKey> groups, EndWords& ends,
@@ -96,8 +71,8 @@ RunCounts scan_groups(const Bitmap& bitmap, std::span<const PixelKey> groups, En
   for (std::size_t k = 0; k < words; ++k) {
     const std::size_t i = ends.listed[k];
     const PixelKey key = groups[i / kGroupWords] + static_cast<PixelKey>(i % kGroupWords * kBits);
-    counts.firsts += write_positions<&Run::first>(ends.first[i], key, runs + counts.firsts);
-    counts.lasts += write_positions<&Run::last>(ends.last[i], key, runs + counts.lasts);
+    counts.firsts += write_positions(ends.first[i], key, EndOf<&Run::first>{runs + counts.firsts});
+    counts.lasts += write_positions(ends.last[i], key, EndOf<&Run::last>{runs + counts.lasts});
   }
   return counts;
 }
@@ -119,23 +94,13 @@ namespace dottrack::image {
 HWY_EXPORT(scan_groups);
 HWY_EXPORT(count_runs);
 
-void RunList::clear() {
+void RunList::scan(const Bitmap& bitmap, std::span<const PixelKey> listed) {
   counts_ = {};
   overflow_ = 0;
-  groups_scanned_ = 0;
-  rows_searched_ = 0;
-}
-
-void RunList::scan(const Bitmap& bitmap, int y_end) {
-  const std::span<const PixelKey> listed = bitmap.occupied();
-  const auto stop = std::lower_bound(listed.begin() + static_cast<std::ptrdiff_t>(groups_scanned_),
-                                     listed.end(), y_end * kRowStep);
-  const auto end = static_cast<std::size_t>(stop - listed.begin());
-  if (overflow_ == 0) rows_searched_ = y_end;
-  while (groups_scanned_ < end) {
-    const std::size_t count = std::min(end - groups_scanned_, EndWords::kMaxGroups);
-    const std::span<const PixelKey> groups = listed.subspan(groups_scanned_, count);
-    groups_scanned_ += count;
+  rows_searched_ = bitmap.height_px();
+  for (std::size_t at = 0; at < listed.size(); at += EndWords::kMaxGroups) {
+    const std::size_t count = std::min(listed.size() - at, EndWords::kMaxGroups);
+    const std::span<const PixelKey> groups = listed.subspan(at, count);
     if (overflow_ > 0) {
       overflow_ +=
           static_cast<std::uint32_t>(HWY_DYNAMIC_DISPATCH(count_runs)(bitmap, groups, ends_));

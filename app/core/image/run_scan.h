@@ -38,16 +38,15 @@ class RunList {
  public:
   static constexpr std::size_t kCapacity = 131072;
 
-  void clear();
-  // Adds the runs of the bitmap's next rows, up to row y_end, leaving out pixels without a
-  // 4-neighbour; row y_end is looked at for neighbours. Rows whose runs do not all fit are left
-  // out, as is everything below them, and counted.
-  void scan(const Bitmap& bitmap, int y_end);
+  // The runs of all the bitmap's rows, leaving out pixels without a 4-neighbour. `listed`: first
+  // pixels of the groups of words that are not zero. Rows whose runs do not all fit are left out,
+  // as is everything below them, and counted.
+  void scan(const Bitmap& bitmap, std::span<const PixelKey> listed);
 
   std::size_t size() const { return counts_.firsts; }
   const Run& operator[](std::size_t i) const { return runs_[i]; }
   std::uint32_t overflow() const { return overflow_; }  // runs left out
-  // Rows from the top whose runs are all here, of those that were scanned.
+  // Rows from the top whose runs are all here.
   int rows_searched() const { return rows_searched_; }
 
  private:
@@ -60,7 +59,6 @@ class RunList {
   std::array<Run, kCapacity + kSpare> runs_{};
   RunCounts counts_;
   std::uint32_t overflow_ = 0;
-  std::size_t groups_scanned_ = 0;
   int rows_searched_ = 0;
 };
 
