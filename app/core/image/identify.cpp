@@ -115,7 +115,10 @@ void Identifier::Memory::find_components(const Search& search) {
     const int y_end = std::min(y + kRowsAtATime, height);
     if (search.has_background()) background.extend(y_end);
     fill_band_rows(search.image, search.window, search.band, thresholds, y, y_end, bitmap);
-    if (has_room) small.take(bitmap, y_end < height ? y_end - kSide : height);
+    if (!has_room) continue;
+    const int y_next = search.window.y_min + y_end;
+    small.take(bitmap, y_end < height ? y_end - kSide : height,
+               LinesAhead(search.image, y_next + 2, y_next + kRowsAtATime));
   }
   if (has_room) small.finish(bitmap);
   runs.scan(bitmap, has_room ? small.groups_left() : bitmap.occupied());

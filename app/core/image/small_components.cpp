@@ -53,16 +53,18 @@ HWY_INLINE unsigned look_at_group(const std::uint64_t* group, std::uint64_t* con
 // `connected`: a group after the other. Whether a word has a beginning cannot be predicted, so
 // there is no branch for it.
 void find_beginnings(const Bitmap& bitmap, std::span<const PixelKey> groups,
-                     std::uint64_t* connected, Beginnings& found) {
+                     std::uint64_t* connected, LinesAhead& ahead, Beginnings& found) {
   std::size_t words = 0;
   std::size_t at = 0;
   for (const PixelKey group : groups) {
+    ahead.send();
     const unsigned some =
         look_at_group(bitmap.word(group), connected + at, found.words.data() + at);
     words += list_set_bits(some, at, found.listed.data() + words);
     at += Bitmap::kGroupWords;
   }
   for (std::size_t k = 0; k < words; ++k) {
+    ahead.send();
     const std::size_t i = found.listed[k];
     const PixelKey key = groups[i / Bitmap::kGroupWords] +
                          static_cast<PixelKey>(i % Bitmap::kGroupWords * Bitmap::kWordBits);
@@ -311,13 +313,13 @@ void SmallComponents::clear() {
   left_count_ = 0;
 }
 
-void SmallComponents::take(Bitmap& bitmap, int y_end) {
+void SmallComponents::take(Bitmap& bitmap, int y_end, LinesAhead ahead) {
   const std::size_t end = bitmap.groups_before(y_end, groups_taken_);
   while (groups_taken_ < end) {
     const std::size_t count = std::min(end - groups_taken_, Beginnings::kMaxGroups);
     HWY_DYNAMIC_DISPATCH(find_beginnings)
     (bitmap, bitmap.occupied().subspan(groups_taken_, count),
-     connected_.data() + groups_taken_ * Bitmap::kGroupWords, beginnings_);
+     connected_.data() + groups_taken_ * Bitmap::kGroupWords, ahead, beginnings_);
     groups_taken_ += count;
     size_ += HWY_DYNAMIC_DISPATCH(follow_beginnings)(
         bitmap, false, beginnings_, components_.data() + size_, components_.data() + kCapacity);

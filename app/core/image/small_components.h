@@ -8,6 +8,7 @@
 #include <span>
 
 #include "app/core/image/bitmap.h"
+#include "app/core/image/lines_ahead.h"
 
 namespace dottrack::image {
 
@@ -46,8 +47,8 @@ class SmallComponents {
   void clear();
   // Looks for beginnings in the rows that the bitmap has more than at the last call, before row
   // y_end, and follows as many as fill its lanes. The rows before y_end + kSide_px are filled, or
-  // all there are. What is taken is cleared in the bitmap.
-  void take(Bitmap& bitmap, int y_end);
+  // all there are. What is taken is cleared in the bitmap. `ahead` is sent for meanwhile.
+  void take(Bitmap& bitmap, int y_end, LinesAhead ahead);
   // Follows what is left; then the components are complete.
   void finish(Bitmap& bitmap);
 
