@@ -314,7 +314,7 @@ void SmallComponents::clear() {
 }
 
 void SmallComponents::take(Bitmap& bitmap, int y_end, LinesAhead ahead) {
-  const std::size_t end = bitmap.groups_before(y_end, groups_taken_);
+  const std::size_t end = bitmap.groups_before(y_end);
   while (groups_taken_ < end) {
     const std::size_t count = std::min(end - groups_taken_, Beginnings::kMaxGroups);
     HWY_DYNAMIC_DISPATCH(find_beginnings)
@@ -325,7 +325,7 @@ void SmallComponents::take(Bitmap& bitmap, int y_end, LinesAhead ahead) {
         bitmap, false, beginnings_, components_.data() + size_, components_.data() + kCapacity);
   }
   const int y_settled = beginnings_.size > 0 ? row(beginnings_.pixels[0]) : y_end;
-  list_left(bitmap, bitmap.groups_before(y_settled, groups_listed_));
+  list_left(bitmap, bitmap.groups_before(y_settled));
 }
 
 void SmallComponents::finish(Bitmap& bitmap) {
