@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dottrack::tracking {
 namespace {
@@ -102,49 +103,56 @@ void CameraWatch::look(std::span<const ShiftEvidence> evidence) {
   if (!ended.empty()) judge_rig();
 }
 
-CameraWatch::Sum CameraWatch::half(const History& history, bool later) const {
+CameraWatch::Sum CameraWatch::stretch(const History& history, std::size_t which) const {
   Sum sum;
-  for (std::size_t i = 0; i < kBlocks / 2; ++i) {
-    sum.add(history.ring[(history.next + i + (later ? kBlocks / 2 : 0)) % kBlocks]);
+  for (std::size_t i = 0; i < kStretchBlocks; ++i) {
+    sum.add(history.ring[(history.next + which * kStretchBlocks + i) % kBlocks]);
   }
   return sum;
 }
 
-// True when there is enough of a past to judge by.
+CameraWatch::Past CameraWatch::past(const History& history) const {
+  Past past;
+  for (std::size_t i = 0; i < past.size(); ++i) past[i] = stretch(history, i);
+  return past;
+}
+
+// True when there is enough to judge by.
 bool CameraWatch::end_block(std::size_t camera) {
   History& history = history_[camera];
   history.ring[history.next] = history.block;
   history.next = (history.next + 1) % kBlocks;
   history.blocks = std::min(history.blocks + 1, kBlocks);
   history.block = Sum{};
-  if (history.blocks < kBlocks) return false;
-  const Sum after = half(history, true);
-  judge_step(history, history.step_blocks > 0 ? history.before_step : half(history, false), after);
-  judge_shift(history, after);
+  if (history.blocks < kStretchBlocks) return false;
+  const Sum now = stretch(history, kPastStretches);
+  judge_shift(history, now);
+  if (history.blocks == kBlocks) judge_step(history, now);
   return true;
 }
 
-void CameraWatch::judge_step(History& history, const Sum& before, const Sum& after) const {
-  const Shift then = shift_of(before.evidence, before.ticks);
-  const Shift now = shift_of(after.evidence, after.ticks);
-  const Vector2d step_px = now.px - then.px;
-  history.step_gain = 0.0;
-  if (then.known && now.known) {
-    history.step_gain = gain_of(step_px, 0.5 * (then.information + now.information));
+// Against each stretch of the past: what was otherwise only just before was a shadow that passed.
+void CameraWatch::judge_step(History& history, const Sum& now) const {
+  if (history.step_blocks == 0) history.before_step = past(history);
+  const Shift late = shift_of(now.evidence, now.ticks);
+  history.step_gain = std::numeric_limits<double>::max();
+  for (const Sum& before : history.before_step) {
+    const Shift early = shift_of(before.evidence, before.ticks);
+    if (!early.known || !late.known || (late.px - early.px).norm() < kStep_px) {
+      history.step_gain = 0.0;
+      break;
+    }
+    const double gain = gain_of(late.px - early.px, 0.5 * (early.information + late.information));
+    history.step_gain = std::min(history.step_gain, gain);
   }
-  if (history.step_gain > kStepGain_px2 && step_px.norm() > kStep_px) {
-    history.before_step = before;
-    ++history.step_blocks;
-  } else {
-    history.step_blocks = 0;
-  }
+  history.step_blocks = history.step_gain > kStepGain_px2 ? history.step_blocks + 1 : 0;
 }
 
-void CameraWatch::judge_shift(History& history, const Sum& after) const {
-  const Shift now = shift_of(after.evidence, after.ticks);
-  history.shift_px = now.px;
-  history.shift_gain = now.known ? gain_of(now.px, now.information) : 0.0;
-  const bool off = history.shift_gain > kShiftGain_px2 && now.px.norm() > kShift_px;
+void CameraWatch::judge_shift(History& history, const Sum& now) const {
+  const Shift shift = shift_of(now.evidence, now.ticks);
+  history.shift_px = shift.px;
+  history.shift_gain = shift.known ? gain_of(shift.px, shift.information) : 0.0;
+  const bool off = history.shift_gain > kShiftGain_px2 && shift.px.norm() > kShift_px;
   history.shift_blocks = off ? history.shift_blocks + 1 : 0;
 }
 
@@ -172,7 +180,7 @@ void CameraWatch::judge_rig() {
   int judged = 0;
   int off = 0;
   for (std::size_t i = 0; i < cameras_; ++i) {
-    if (moved_.contains(i) || history_[i].blocks < kBlocks) continue;
+    if (moved_.contains(i) || history_[i].blocks < kStretchBlocks) continue;
     ++judged;
     if (history_[i].shift_blocks >= kShiftBlocks) ++off;
   }

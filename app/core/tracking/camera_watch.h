@@ -41,7 +41,11 @@ class CameraWatch {
 
  private:
   static constexpr int kBlockTicks = 5;
-  static constexpr std::size_t kBlocks = 4;  // half of them before, half after
+  // A stretch of ticks is long enough to average noise, a stretch's way short enough for a model's
+  // faults to stay as they are.
+  static constexpr std::size_t kStretchBlocks = 2;
+  static constexpr std::size_t kPastStretches = 3;
+  static constexpr std::size_t kBlocks = kStretchBlocks * (kPastStretches + 1);
 
   struct Sum {
     ShiftEvidence evidence;
@@ -49,13 +53,15 @@ class CameraWatch {
     void add(const Sum& other);
   };
 
+  using Past = std::array<Sum, kPastStretches>;
+
   struct History {  // of one camera
     Sum block;      // that is going on
     std::array<Sum, kBlocks> ring{};
     std::size_t next = 0;  // in the ring
     std::size_t blocks = 0;
     int unseen_ticks = 0;
-    Sum before_step;
+    Past before_step;
     int step_blocks = 0;  // that show a step, one after another
     double step_gain = 0.0;
     int shift_blocks = 0;  // that show the camera far off
@@ -65,9 +71,10 @@ class CameraWatch {
 
   void forget(History& history) const;
   bool end_block(std::size_t camera);
-  Sum half(const History& history, bool later) const;
-  void judge_step(History& history, const Sum& before, const Sum& after) const;
-  void judge_shift(History& history, const Sum& after) const;
+  Sum stretch(const History& history, std::size_t which) const;  // from the oldest on
+  Past past(const History& history) const;
+  void judge_step(History& history, const Sum& now) const;
+  void judge_shift(History& history, const Sum& now) const;
   bool stands_out(std::size_t camera, double History::*gain, double ratio) const;
   void leave_out(std::size_t camera);
   void judge_rig();
