@@ -11,8 +11,8 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
 // A gain is what a shift explains: the sum over a camera's dots of the squares of so many pixels.
-constexpr double kStepGain_px2 = 0.13;
-constexpr double kStep_px = 0.2;
+constexpr double kStepGain_px2 = 0.07;
+constexpr double kStep_px = 0.15;
 constexpr double kShiftGain_px2 = 1.2;
 constexpr double kShift_px = 0.7;
 constexpr double kStandOut = 1.5;  // times the next camera's gain
