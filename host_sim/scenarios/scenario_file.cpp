@@ -139,6 +139,8 @@ class ScenarioReader {
         hall_lamps(grounds.length_m, grounds.width_m, grounds.hall.height_m, scene_.seed);
     grounds.hall.distance_to_drive_m = distance_to(drive.way);
     scene_.world.hall = make_hall(grounds.hall, scene_.terrain, scene_.world.lamps);
+    scene_.calibration_dots = static_cast<std::size_t>(grounds.hall.calibration_dots) +
+                              static_cast<std::size_t>(grounds.hall.calibration_boxes);
   }
 
   Complaint& complaint_;

@@ -53,6 +53,7 @@ struct Scene {
   double width_m = 9.0;           // along y
   Terrain terrain{22.0, 9.0, 1};  // that the world's hall is built on
   World world;
+  std::size_t calibration_dots = 0;  // so many of the hall's marks, the first ones
   std::vector<SceneCamera> cameras;
   // The body that carries the target; absent in a scene with nothing but look-alikes.
   std::optional<std::size_t> vehicle;
