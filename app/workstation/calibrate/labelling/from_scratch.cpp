@@ -13,16 +13,8 @@ constexpr std::size_t kSightingsAKind = 30;
 constexpr std::size_t kKinds = 400;
 constexpr std::size_t kMostGrown = 600;
 constexpr double kLikeMargin = 12.0;
-constexpr std::size_t kLeastLabelled = 8;
 
 }  // namespace
-
-bool convincing(const Scene& scene, const Growth& growth) {
-  const double hypotheses =
-      static_cast<double>(scene.dots.size()) * static_cast<double>(scene.blobs.size()) * 1e3;
-  return growth.labelled >= kLeastLabelled && growth.log_odds > 10.0 + std::log(hypotheses) &&
-         2 * growth.labelled > growth.expected;
-}
 
 std::vector<Growth> labels_from_scratch(const Scene& scene, const SurveyIndex& survey,
                                         const SketchPrior& prior) {
@@ -35,7 +27,7 @@ std::vector<Growth> labels_from_scratch(const Scene& scene, const SurveyIndex& s
       for (const SketchFit& fit : sketches(pairs.points, pairs.pixels, prior, kPatchScale_px, 2)) {
         const Growth growth = grow(scene, survey, fit.sketch, prior, sighting.labels);
         ++grown;
-        if (growth.labelled < kLeastLabelled || growth.log_odds < 20.0) continue;
+        if (growth.labelled < kLeastToTell || growth.log_odds < 20.0) continue;
         std::vector<Growth> all = likenesses(scene, survey, prior, kinds, growth, kLikeMargin);
         if (convincing(scene, all.front())) return all;
       }

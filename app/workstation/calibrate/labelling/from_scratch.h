@@ -13,8 +13,4 @@ namespace dottrack::calibrate {
 std::vector<Growth> labels_from_scratch(const Scene& scene, const SurveyIndex& survey,
                                         const SketchPrior& prior);
 
-// Far more than the best of many tries at strewn blobs would reach, and most of what the camera
-// ought to see.
-bool convincing(const Scene& scene, const Growth& growth);
-
 }  // namespace dottrack::calibrate

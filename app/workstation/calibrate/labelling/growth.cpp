@@ -197,6 +197,13 @@ void judge(const Scene& scene, Growth& growth) {
   growth.log_odds += static_cast<double>(missed) * std::log(1.0 - kDetected);
 }
 
+bool convincing(const Scene& scene, const Growth& growth) {
+  const double hypotheses =
+      static_cast<double>(scene.dots.size()) * static_cast<double>(scene.blobs.size()) * 1e3;
+  return growth.labelled >= kLeastToTell && growth.log_odds > 10.0 + std::log(hypotheses) &&
+         2 * growth.labelled > growth.expected;
+}
+
 Growth settle(const Scene& scene, const SurveyIndex& survey, const Sketch& start,
               const SketchPrior& prior, const Labels& labels, double within_px) {
   Growth growth{start, labels, within_px / 6.0, 0.0, 0, 0};

@@ -9,6 +9,9 @@
 
 namespace dottrack::calibrate {
 
+// Fewer dots could be anything.
+inline constexpr std::size_t kLeastToTell = 8;
+
 // A labelling of one camera's blobs.
 struct Growth {
   Sketch sketch;
@@ -37,6 +40,10 @@ Growth settle(const Scene& scene, const SurveyIndex& survey, const Sketch& start
 
 // Spread, log odds and counts of a labelling.
 void judge(const Scene& scene, Growth& growth);
+
+// Far more than the best of many tries at strewn blobs would reach, and most of what the camera
+// ought to see.
+bool convincing(const Scene& scene, const Growth& growth);
 
 // The labelled points and pixels, dot by dot.
 struct Pairs {

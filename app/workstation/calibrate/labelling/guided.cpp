@@ -3,7 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <optional>
 
 namespace dottrack::calibrate {
 namespace {
@@ -17,6 +19,7 @@ constexpr double kLeastApart_rad = 0.12;    // two dots of a hypothesis
 constexpr double kWithin = 3.0;             // sigmas of the prior
 constexpr double kSizeFactor = 1.8;         // of a blob's size from what it should be
 constexpr double kMargin = 12.0;
+constexpr double kPromising = 6.0;          // log odds
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -59,7 +62,9 @@ class Guesser {
     pick_blobs();
   }
 
-  std::vector<Hypothesis> search() {
+  // `enough`: asked of promising ones as they come; where it says so, the search is over.
+  std::vector<Hypothesis> search(const std::function<bool(const Sketch&)>& enough) {
+    enough_ = enough;
     if (prior_.rotation_rad > 0.0) {
       search_about_rotation();
     } else {
@@ -153,7 +158,9 @@ class Guesser {
       if (anchors.size() > kMostAnchors) break;
     }
     for (std::size_t i = 0; i < anchors.size(); ++i) {
-      for (std::size_t j = i + 1; j < anchors.size(); ++j) try_rotation(anchors[i], anchors[j]);
+      for (std::size_t j = i + 1; j < anchors.size() && !over_; ++j) {
+        try_rotation(anchors[i], anchors[j]);
+      }
     }
   }
 
@@ -180,7 +187,7 @@ class Guesser {
         const double cosine = targets_[i].direction.dot(targets_[j].direction);
         if (cosine > std::cos(kLeastApart_rad) || cosine < 0.3) continue;
         for (std::size_t a = 0; a < blobs_.size(); ++a) {
-          for (std::size_t b = 0; b < blobs_.size(); ++b) {
+          for (std::size_t b = 0; b < blobs_.size() && !over_; ++b) {
             if (a != b) try_focal({i, a}, {j, b}, cosine);
           }
         }
@@ -242,6 +249,10 @@ class Guesser {
     }
     if (odds <= 1.0) return;
     found_.push_back({s, odds});
+    if (odds > kPromising && odds > asked_ + 1.0) {
+      asked_ = odds;
+      over_ = enough_(s);
+    }
     if (found_.size() > 20000) keep_best();
   }
 
@@ -268,6 +279,9 @@ class Guesser {
   std::vector<int> blobs_;
   std::vector<Vector3d> rays_;
   std::vector<Hypothesis> found_;
+  std::function<bool(const Sketch&)> enough_;
+  double asked_ = 0.0;  // highest odds of a hypothesis that was asked about
+  bool over_ = false;
 };
 
 bool alike(const Labels& a, const Labels& b) {
@@ -281,10 +295,19 @@ bool alike(const Labels& a, const Labels& b) {
 std::vector<Growth> labels_from_guess(const Scene& scene, const SurveyIndex& survey,
                                       const SketchPrior& prior) {
   const Labels none(scene.dots.size(), kNoBlob);
+  const auto settled_from = [&](const Sketch& start) {
+    return settle(scene, survey, start, prior, none, 2.5 * kOffPart * scene.width_px);
+  };
+  std::optional<Growth> sure;
+  const auto enough = [&](const Sketch& start) {
+    Growth growth = settled_from(start);
+    if (convincing(scene, growth)) sure = std::move(growth);
+    return sure.has_value();
+  };
+  const std::vector<Hypothesis> best = Guesser(scene, prior).search(enough);
+  if (sure) return {*sure};
   std::vector<Growth> settled;
-  for (const Hypothesis& h : Guesser(scene, prior).search()) {
-    settled.push_back(settle(scene, survey, h.sketch, prior, none, 2.5 * kOffPart * scene.width_px));
-  }
+  for (const Hypothesis& h : best) settled.push_back(settled_from(h.sketch));
   std::stable_sort(settled.begin(), settled.end(),
                    [](const Growth& a, const Growth& b) { return a.log_odds > b.log_odds; });
   std::vector<Growth> kept;
