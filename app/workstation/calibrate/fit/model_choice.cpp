@@ -1,5 +1,6 @@
 #include "app/workstation/calibrate/fit/model_choice.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
