@@ -10,8 +10,8 @@
 namespace dottrack::calibrate {
 namespace {
 
-constexpr double kFalseViews = 0.05;   // expected number of good views left out
-constexpr double kFalseDots = 0.01;    // ... and of good dots suspected
+constexpr double kFalseViews = 0.005;  // expected number of good views left out
+constexpr double kFalseDots = 0.0005;  // ... and of good dots suspected
 constexpr double kHysteresis = 0.8;    // of the surprise, below which something comes back
 constexpr int kMostReturns = 2;        // of the same view
 constexpr double kLeastPart = 0.01;    // of a direction's variance, in which a residual tells a thing
