@@ -85,8 +85,9 @@ class Bundle {
     add_cameras();
   }
 
-  bool solve() {
+  bool solve(Precision precision) {
     ceres::Solver::Options options;
+    const bool full = precision == Precision::full;
     options.linear_solver_type = ceres::DENSE_SCHUR;
     options.dense_linear_algebra_library_type = ceres::EIGEN;
     options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
@@ -101,10 +102,10 @@ class Bundle {
       }
     }
     options.num_threads = 1;
-    options.max_num_iterations = 200;
-    options.function_tolerance = 1e-14;
-    options.parameter_tolerance = 1e-11;
-    options.gradient_tolerance = 1e-11;
+    options.max_num_iterations = full ? 200 : 40;
+    options.function_tolerance = full ? 1e-14 : 1e-7;
+    options.parameter_tolerance = full ? 1e-11 : 1e-8;
+    options.gradient_tolerance = full ? 1e-11 : 1e-8;
     options.max_num_consecutive_invalid_steps = 20;
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
@@ -176,8 +177,8 @@ bool all_finite(const Adjustment& adjustment) {
 
 }  // namespace
 
-bool solve(Adjustment& adjustment, Loss loss) {
-  const bool usable = Bundle(adjustment, loss).solve();
+bool solve(Adjustment& adjustment, Loss loss, Precision precision) {
+  const bool usable = Bundle(adjustment, loss).solve(precision);
   for (AdjustedCamera& c : adjustment.cameras) rebase(c.camera);
   return usable && all_finite(adjustment);
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "app/workstation/calibrate/fit/camera_numbers.h"
@@ -13,7 +14,8 @@ namespace dottrack::calibrate {
 
 struct NumberPriors {
   Numbers mean{};
-  Numbers sigma{};  // 0: nothing is known of the number
+  Numbers sigma{};    // 0: nothing is known of the number
+  Numbers loosest{};  // the most that sigma may become where it is learnt from the cameras
 };
 
 struct AdjustedCamera {
@@ -58,10 +60,15 @@ enum class Loss : std::uint8_t {
 inline constexpr double kHuberSigmas = 3.0;
 inline constexpr double kCauchySigmas = 2.0;
 
+enum class Precision : std::uint8_t {
+  rough,  // a thousandth of a standard deviation, for comparisons
+  full,   // so that every start ends in the same place
+};
+
 // From where the adjustment stands to the nearest optimum, in one thread: the same bits every time.
 // Afterwards its cameras are rebased. False where the start sees a kept view's dot behind a camera,
 // or the numbers run away.
-bool solve(Adjustment& adjustment, Loss loss);
+bool solve(Adjustment& adjustment, Loss loss, Precision precision = Precision::full);
 
 // Dots that no kept view shows are where they were surveyed; a dot that is not trusted needs two.
 inline constexpr std::size_t kLeastViewsOfDot = 2;

@@ -15,8 +15,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 bool is_free(const LensKind& kind, int number) {
-  if (number < kSkew) return true;
-  if (number == kSkew || number == kAxis || number == kAxis + 1) return kind.own_axis;
+  if (number <= kSkew) return true;
+  if (number == kAxis || number == kAxis + 1) return kind.own_axis;
   if (number == kRadial) return kind.form != LensForm::pinhole;
   if (number == kRadial + 1) return kind.two_radial;
   return kind.form == LensForm::pupil;

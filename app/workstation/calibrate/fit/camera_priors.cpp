@@ -34,6 +34,7 @@ NumberPriors priors_of(const LensKind& kind, const CameraFrame& frame, ImageExte
   p.sigma[kRadial + 1] = kBendSigma / (tangent2 * tangent2);
   p.sigma[kPupil] = kPupilSigma;
   p.sigma[kPupil + 1] = kPupilSigma;
+  p.loosest = p.sigma;
   return p;
 }
 

@@ -10,8 +10,8 @@
 namespace dottrack::calibrate {
 namespace {
 
-constexpr double kFalseViews = 0.05;   // expected number of good views left out
-constexpr double kFalseDots = 0.01;    // ... and of good dots suspected
+constexpr double kFalseViews = 0.005;  // expected number of good views left out
+constexpr double kFalseDots = 0.0005;  // ... and of good dots suspected
 constexpr double kHysteresis = 0.8;    // of the surprise, below which something comes back
 constexpr int kMostReturns = 2;        // of the same view
 constexpr double kLeastPart = 0.01;    // of a direction's variance, in which a residual tells a thing
@@ -204,6 +204,52 @@ double least_survey_scale(const Adjustment& adjustment) {
   return kLeastSurveySigma * distance / sigma;
 }
 
+// How far the cameras' numbers of one sort are from what cameras ideally have is learnt from the
+// cameras themselves: where none is off by more than its noise, none is believed to be.
+struct Habit {
+  int first;
+  int count;
+  double least_sigma;
+};
+constexpr Habit kHabits[] = {{kAspect, 1, 5e-5}, {kSkew, 1, 5e-5}, {kAxis, 2, 5e-4}};
+constexpr double kHabitBelief = 1.0;  // numbers that are believed to be as off as assumed
+
+double learn_habit(Adjustment& adjustment, const Information& information, const Habit& habit) {
+  double square = kHabitBelief;
+  double redundancy = kHabitBelief;
+  for (std::size_t i = 0; i < adjustment.cameras.size(); ++i) {
+    const AdjustedCamera& c = adjustment.cameras[i];
+    for (int k = habit.first; k < habit.first + habit.count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      if (!is_free(c.camera.kind, k) || !(c.priors.sigma[at] > 0.0)) continue;
+      const double off = (c.camera.numbers[at] - c.priors.mean[at]) / c.priors.sigma[at];
+      square += off * off;
+      redundancy += 1.0 - information.cameras[i](k, k) / std::pow(c.priors.sigma[at], 2);
+    }
+  }
+  const double factor = std::sqrt(square / redundancy);
+  double change = 0.0;
+  for (AdjustedCamera& c : adjustment.cameras) {
+    for (int k = habit.first; k < habit.first + habit.count; ++k) {
+      double& sigma = c.priors.sigma[static_cast<std::size_t>(k)];
+      const double before = sigma;
+      if (!(sigma > habit.least_sigma)) continue;
+      sigma = std::clamp(sigma * factor, habit.least_sigma,
+                         c.priors.loosest[static_cast<std::size_t>(k)]);
+      change = std::max(change, std::abs(std::log(sigma / before)));
+    }
+  }
+  return change;
+}
+
+double learn_habits(Adjustment& adjustment, const Information& information) {
+  double change = 0.0;
+  for (const Habit& habit : kHabits) {
+    change = std::max(change, learn_habit(adjustment, information, habit));
+  }
+  return change;
+}
+
 }  // namespace
 
 double estimate_noise(Adjustment& adjustment, const Information& information,
@@ -250,7 +296,7 @@ double estimate_noise(Adjustment& adjustment, const Information& information,
 
 std::optional<Information> adjust_and_edit(Adjustment& adjustment, bool estimate) {
   constexpr int kMostRounds = 60;
-  constexpr double kSameNoise = 0.003;
+  constexpr double kSameNoise = 0.01;
   Editor editor(adjustment);
   std::optional<Information> information;
   bool robust = true;
@@ -258,10 +304,11 @@ std::optional<Information> adjust_and_edit(Adjustment& adjustment, bool estimate
     if (!solve(adjustment, Loss::huber)) return std::nullopt;
     information = inform(adjustment);
     if (!information) return std::nullopt;
-    const double change = estimate_noise(adjustment, *information, {estimate, robust, !robust});
+    double change = estimate_noise(adjustment, *information, {estimate, robust, !robust});
+    if (!robust) change = std::max(change, learn_habits(adjustment, *information));
     // Settle the noise first: all tests are by it.
     const bool settled = change < (robust ? 0.05 : kSameNoise);
-    const bool edited = change < 0.3 && editor.edit(adjustment, *information);
+    const bool edited = change < 0.5 && editor.edit(adjustment, *information);
     if (settled && !edited) {
       if (!robust) return information;
       robust = false;

@@ -1,5 +1,6 @@
 #include "app/workstation/calibrate/fit/model_choice.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,9 +36,7 @@ Alone alone(const AdjustedCamera& camera, std::span<const View> views,
   return out;
 }
 
-bool fit(Adjustment& adjustment) {
-  return solve(adjustment, Loss::cauchy) && solve(adjustment, Loss::huber);
-}
+bool fit(Adjustment& adjustment, Loss loss) { return solve(adjustment, loss, Precision::rough); }
 
 // Squared sigmas of a view that the camera was not fitted to, its dot where it was surveyed.
 double foretold(const Adjustment& a, const View& view, double& off2_px) {
@@ -78,7 +77,7 @@ Foretelling foretell(const Alone& whole, std::size_t folds) {
       any = any || !view.kept;
     }
     if (!any) continue;
-    out.works = fit(part);
+    out.works = fit(part, Loss::huber);
     for (std::size_t i = 0; i < n; ++i) {
       if (!part.views[i].kept) out.sigmas2[i] = foretold(part, part.views[i], out.off2_px[i]);
     }
@@ -158,13 +157,13 @@ double median_sigmas2(const Adjustment& a) {
 
 // Fitted from wide to narrow, until the residuals are what the sigmas say.
 bool fit_to_scale(Adjustment& adjustment) {
-  constexpr int kRounds = 4;
+  constexpr int kRounds = 3;
   for (int i = 0; i < kRounds; ++i) {
     const double middle = median_sigmas2(adjustment);
     if (!std::isfinite(middle)) return false;
     scale_to(adjustment, std::sqrt(std::max(middle, 1e-6) / kMedian2));
     for (AdjustedDot& dot : adjustment.dots) dot.offset_m.setZero();
-    if (!fit(adjustment)) return false;
+    if (!fit(adjustment, i == 0 ? Loss::cauchy : Loss::huber)) return false;
   }
   return true;
 }
