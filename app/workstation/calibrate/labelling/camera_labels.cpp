@@ -112,7 +112,7 @@ std::vector<Growth> labels_from_seeds(const Scene& scene, const SurveyIndex& sur
                    [](const Growth& a, const Growth& b) { return a.log_odds > b.log_odds; });
   std::erase_if(grown, [&](const Growth& growth) {  // what was pointed at stays what it is
     std::size_t kept = 0;
-    for (const Seed& seed : seeds) kept += growth.labels[seed.dot] == labels[seed.dot] ? 1 : 0;
+    for (const Seed& seed : seeds) kept += growth.labels[seed.dot] == labels[seed.dot] ? 1U : 0U;
     return 4 * kept < 3 * seeds.size();
   });
   if (grown.size() > 1) grown.resize(1);

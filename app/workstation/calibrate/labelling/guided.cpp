@@ -286,7 +286,7 @@ class Guesser {
 
 bool alike(const Labels& a, const Labels& b) {
   std::size_t same = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) same += a[i] != kNoBlob && a[i] == b[i] ? 1 : 0;
+  for (std::size_t i = 0; i < a.size(); ++i) same += a[i] != kNoBlob && a[i] == b[i] ? 1U : 0U;
   return 2 * same > std::min(count(a), count(b));
 }
 

@@ -51,7 +51,7 @@ bool carries_enough(const Scene& scene, const SurveyIndex& survey, const std::ve
     const Eigen::Vector3d there =
         motion.rotation * scene.dots[dot].position_m + motion.translation_m;
     const double within = kSamePlace * survey.spacing_m(dots[i]);
-    carried += survey.at(scene.dot_layer[dot], there, within) >= 0 ? 1 : 0;
+    carried += survey.at(scene.dot_layer[dot], there, within) >= 0 ? 1U : 0U;
   }
   return static_cast<double>(carried) >= kCarried * static_cast<double>(tried);
 }
@@ -110,7 +110,7 @@ bool same_labels(const Labels& a, const Labels& b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (a[i] == kNoBlob && b[i] == kNoBlob) continue;
     ++either;
-    same += a[i] == b[i] ? 1 : 0;
+    same += a[i] == b[i] ? 1U : 0U;
   }
   return 2 * same > either;
 }
@@ -131,7 +131,7 @@ std::vector<Growth> likenesses(const Scene& scene, const SurveyIndex& survey,
   std::vector<Growth> others;
   for (int climb = 0; climb < kMostClimbs; ++climb) {
     others = carried(scene, survey, prior, kinds, best);
-    if (others.empty() || !(others.front().log_odds > best.log_odds + 1e-6 * best.labelled)) break;
+    if (others.empty() || !(others.front().log_odds > best.log_odds + 1e-6 * static_cast<double>(best.labelled))) break;
     const bool much = others.front().log_odds > best.log_odds + margin;
     std::swap(best, others.front());
     if (!much) break;

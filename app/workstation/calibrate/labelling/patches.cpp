@@ -135,7 +135,7 @@ class Sighter {
       if (!scene_.holds(there)) continue;
       blobs[i] = scene_.index.nearest(layer, there, within);
       odds += blobs[i] < 0 ? miss : hit;
-      seen += blobs[i] < 0 ? 0 : 1;
+      seen += blobs[i] < 0 ? 0U : 1U;
       if (odds < 3.0 * miss) return;
     }
     if (seen < kMinOthers || odds <= 0.0) return;

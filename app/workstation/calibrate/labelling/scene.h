@@ -35,7 +35,7 @@ using Labels = std::vector<int>;
 
 inline std::size_t count(const Labels& labels) {
   std::size_t labelled = 0;
-  for (const int blob : labels) labelled += blob != kNoBlob ? 1 : 0;
+  for (const int blob : labels) labelled += blob != kNoBlob ? 1U : 0U;
   return labelled;
 }
 
