@@ -1,3 +1,4 @@
 # What `dottrack calibrate` is made of, beside its command.
 add_subdirectory(calibrate)
-list(APPEND workstation_uses dottrack::workstation_calibrate_fit)
+list(APPEND workstation_uses dottrack::workstation_calibrate_fit
+     dottrack::workstation_calibrate_report)
