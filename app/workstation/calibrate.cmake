@@ -1,4 +1,3 @@
 # What `dottrack calibrate` is made of, beside its command.
 add_subdirectory(calibrate)
-list(APPEND workstation_uses dottrack::workstation_calibrate_fit
-     dottrack::workstation_calibrate_input dottrack::workstation_calibrate_labelling)
+list(APPEND workstation_uses dottrack::workstation_calibrate)

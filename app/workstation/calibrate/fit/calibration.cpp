@@ -128,7 +128,9 @@ Result<Calibration> calibrate(std::span<const SurveyedDot> dots, std::span<const
   if (!progress.at(kAdjusted, "testing on dots left out")) return stopped();
   const HeldOut held_out = hold_out(adjustment, options.folds, options.threads);
   progress.at(1.0, "done");
-  return results_of(dots, views, {adjustment, *information, held_out, *cameras});
+  std::vector<Choice> chosen;
+  for (const auto& choice : choices) chosen.push_back(*choice);
+  return results_of(dots, views, {adjustment, *information, held_out, chosen});
 }
 
 }  // namespace dottrack::calibrate

@@ -9,6 +9,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/core/geometry/camera_model.h"
@@ -53,6 +54,14 @@ struct ParameterSigmas {
   double centre_px = 0.0;     // of (hc, vc), root of the trace
 };
 
+// A kind of model that was tried on a camera alone.
+struct TriedModel {
+  std::string name;
+  std::size_t numbers = 0;      // that were fitted
+  double holdout_rms_px = 0.0;  // of dots left out, without those that no model fits
+  bool chosen = false;
+};
+
 struct CameraCalibration {
   std::string name;
   int width_px = 0;
@@ -65,7 +74,9 @@ struct CameraCalibration {
   double holdout_rms_px = 0.0;  // of what was used, by models fitted without the dot
   double image_sigma_px = 0.0;  // typical, of a coordinate: as estimated
   double coverage = 0.0;        // part of the image within the dots' convex hull, 0 to 1
+  std::vector<Eigen::Vector2d> hull_px;  // that hull
   ParameterSigmas sigmas;
+  std::vector<TriedModel> tried;  // where there was a choice
   std::vector<ResidualOfView> residuals;
   std::vector<std::string> remarks;
 };

@@ -125,7 +125,7 @@ double cut_mean(const Foretelling& f, double unit) {
 
 TriedKind summary(const Trial& trial, double unit) {
   TriedKind tried{trial.kind, std::numeric_limits<double>::infinity(),
-                  cut_mean(trial.foretelling, unit)};
+                  cut_mean(trial.foretelling, unit), false};
   if (!trial.foretelling.works) return tried;
   double sum = 0.0;
   double count = 0.0;
@@ -198,6 +198,15 @@ ModelKind kind_of(const LensKind& kind) {
   return kind.two_radial || kind.own_axis ? ModelKind::cahvor : ModelKind::cahv_radial;
 }
 
+std::string words_of(const LensKind& kind) {
+  if (kind.form == LensForm::pinhole) return "CAHV";
+  if (kind.form == LensForm::pupil) {
+    return kind.linearity == 0.0 ? "CAHVORE, fish-eye" : "CAHVORE, perspective";
+  }
+  if (kind.own_axis) return "CAHVOR";
+  return kind.two_radial ? "CAHVOR, O = A" : "CAHVOR, O = A, r1 alone";
+}
+
 std::optional<Choice> choose(const StartedCamera& camera, std::span<const View> views,
                              std::span<const LensKind> kinds, const ChoiceSetup& setup) {
   std::vector<Trial> trials;
@@ -232,6 +241,7 @@ std::optional<Choice> choose(const StartedCamera& camera, std::span<const View> 
     if (chosen || c.mean > c.error) continue;
     choice.kind = trial.kind;
     choice.camera = trial.camera;
+    choice.tried.back().chosen = true;
     chosen = true;
   }
   return choice;

@@ -3,6 +3,7 @@
 // as the best does, within the noise.
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ namespace dottrack::calibrate {
 // The kinds to choose from, the simplest first.
 std::vector<LensKind> candidates(ModelKind kind);
 ModelKind kind_of(const LensKind& kind);
+std::string words_of(const LensKind& kind);
 
 // What the choice needs beyond one camera.
 struct ChoiceSetup {
@@ -28,6 +30,7 @@ struct TriedKind {
   LensKind kind;
   double holdout_rms_px = 0.0;  // of left-out dots, the far ones cut; infinite: does not work
   double loss = 0.0;            // mean over dots, squared sigmas
+  bool chosen = false;
 };
 
 struct Choice {

@@ -8,7 +8,6 @@
 
 #include "app/workstation/calibrate/fit/chi_square.h"
 #include "app/workstation/calibrate/fit/editing.h"
-#include "app/workstation/calibrate/fit/model_choice.h"
 
 namespace dottrack::calibrate {
 namespace {
@@ -36,7 +35,7 @@ class Rms {
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-double hull_area(std::vector<Vector2d> points) {
+std::vector<Vector2d> hull_of(std::vector<Vector2d> points) {
   std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
   });
@@ -53,6 +52,10 @@ double hull_area(std::vector<Vector2d> points) {
     hull.pop_back();
     std::reverse(points.begin(), points.end());
   }
+  return hull;
+}
+
+double area_of(const std::vector<Vector2d>& hull) {
   double twice = 0.0;
   for (std::size_t i = 0; i < hull.size(); ++i) {
     twice += cross(hull[i], hull[(i + 1) % hull.size()]);
@@ -163,6 +166,10 @@ class Teller {
     const MatrixXd propagated = jacobian * covariance * jacobian.transpose();
     out.covariance = 0.5 * (propagated + propagated.transpose());
     out.chosen = kind_of(c.camera.kind);
+    for (const TriedKind& tried : f_.choices[i].tried) {
+      out.tried.push_back({words_of(tried.kind), static_cast<std::size_t>(count_free(tried.kind)),
+                           tried.holdout_rms_px, tried.chosen});
+    }
     out.sigmas = sigmas_of(c.camera, covariance);
     remark_on_numbers(c, covariance, out.remarks);
     return out;
@@ -219,7 +226,8 @@ class Teller {
     c.rms_adjusted_px = adjusted.value();
     c.holdout_rms_px = held_out.value();
     c.image_sigma_px /= static_cast<double>(std::max<std::size_t>(c.residuals.size(), 1));
-    c.coverage = hull_area(pixels) / (static_cast<double>(c.width_px) * c.height_px);
+    c.hull_px = hull_of(std::move(pixels));
+    c.coverage = area_of(c.hull_px) / (static_cast<double>(c.width_px) * c.height_px);
     if (left_out > 0) {
       c.remarks.push_back(fmt::format("{} of its {} views of dots do not fit and were left out",
                                       left_out, c.residuals.size()));

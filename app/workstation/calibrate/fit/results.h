@@ -7,7 +7,7 @@
 #include "app/workstation/calibrate/fit/calibration.h"
 #include "app/workstation/calibrate/fit/hold_out.h"
 #include "app/workstation/calibrate/fit/information.h"
-#include "app/workstation/calibrate/fit/setup.h"
+#include "app/workstation/calibrate/fit/model_choice.h"
 
 namespace dottrack::calibrate {
 
@@ -15,7 +15,7 @@ struct Finished {
   const Adjustment& adjustment;
   const Information& information;
   const HeldOut& held_out;
-  std::span<const StartedCamera> started;
+  std::span<const Choice> choices;  // of each camera
 };
 
 Calibration results_of(std::span<const SurveyedDot> dots, std::span<const CameraViews> views,
