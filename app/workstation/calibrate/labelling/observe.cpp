@@ -8,6 +8,7 @@
 #include "app/workstation/calibrate/fit/parallel.h"
 #include "app/workstation/calibrate/labelling/agreement.h"
 #include "app/workstation/calibrate/labelling/diagnosis.h"
+#include "app/workstation/calibrate/labelling/eccentricity.h"
 
 namespace dottrack::calibrate {
 namespace {
@@ -76,11 +77,14 @@ CameraViews views_of(const CameraInput& input, const LabelledCamera& camera) {
   views.height_px = camera.scene.height_px;
   views.near_m = input.near_m;
   const Growth& growth = camera.labellings.front();
+  const SurveyIndex survey(camera.scene.dots, camera.scene.dot_layer);
   views.approximate = as_cahvor(growth.sketch);
   for (std::size_t i = 0; i < growth.labels.size(); ++i) {
     if (growth.labels[i] == kNoBlob) continue;
     const Blob& blob = camera.scene.blobs[static_cast<std::size_t>(growth.labels[i])];
-    views.observations.push_back({i, blob.pixel, blob.sigma_px});
+    const Eigen::Vector2d off =
+        eccentricity_px(camera.scene, survey, growth, static_cast<int>(i));
+    views.observations.push_back({i, blob.pixel - off, blob.sigma_px});
   }
   return views;
 }
