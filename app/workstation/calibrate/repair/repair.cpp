@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <system_error>
 
 #include "app/config/camera_file.h"
 #include "app/config/rig_file.h"
@@ -63,10 +64,13 @@ Result<std::string> repair(const RepairRequest& request) {
   }
   old->model = repaired->model;
   old->covariance = repaired->covariance;
-  if (auto done = telemetry::write_file(request.out, config::write_camera_text(*old)); !done) {
+  std::error_code error;
+  std::filesystem::create_directories(request.out, error);
+  const std::filesystem::path file = request.out / entry->model_path.filename();
+  if (auto done = telemetry::write_file(file, config::write_camera_text(*old)); !done) {
     return tl::unexpected<Error>(done.error());
   }
-  return summary(request.camera, *repaired, request.out);
+  return summary(request.camera, *repaired, file);
 }
 
 }  // namespace dottrack::calibrate

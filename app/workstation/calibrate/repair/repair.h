@@ -13,7 +13,7 @@ struct RepairRequest {
   std::filesystem::path rig;     // rig.toml with the old model
   std::filesystem::path run;     // folder with poses.csv, or that file
   std::filesystem::path frames;  // the run's recorded frames; empty: poses.csv has the views
-  std::filesystem::path out;     // the new model file
+  std::filesystem::path out;     // folder for the new model file, named as the old one
 };
 
 // Writes the new model with its covariance and returns what a person wants to know of it. An error
