@@ -30,12 +30,13 @@ struct Motion {
 
 // How one camera saw one dot.
 struct DotView {
+  bool seen = false;  // in its place; whether it is used or not
   bool used = false;
   Eigen::Vector2f pixel = Eigen::Vector2f::Zero();
   float semi_major_px = 0.0F;
   float semi_minor_px = 0.0F;
   float angle_rad = 0.0F;
-  float residual_px = 0.0F;  // from the dot's triangulated position, reprojected
+  float residual_px = 0.0F;  // from the dot's position, reprojected
 };
 
 struct DotState {
@@ -62,6 +63,10 @@ struct CameraTick {
   std::uint32_t rejected_ellipse = 0;
   bool overflow = false;  // a capacity was reached: some regions were left out
   bool stale = false;     // delivered the picture of the tick before again: left out
+  bool moved = false;     // stands no longer as its model says: left out
+  // How far its dots are off, all alike, from where the other cameras say they are; over the last
+  // ticks, zero where it sees too little.
+  Eigen::Vector2f shift_px = Eigen::Vector2f::Zero();
 };
 
 // How many candidates each gate of acquisition left over (paper 3.1.2 to 3.1.5).
@@ -105,6 +110,7 @@ struct TickResult {
   std::uint32_t ticks_lost = 0;         // consecutive ticks without a pose
   CameraSet cameras_used;
   std::uint8_t dots_used = 0;
+  bool rig_disagrees = false;  // more cameras contradict each other than can be left out
   std::array<DotState, kMaxDots> dots{};
   std::array<CameraTick, kMaxCameras> cameras{};
   AcquisitionCounts acquisition;

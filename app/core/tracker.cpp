@@ -9,7 +9,9 @@
 #include "app/core/image/identify.h"
 #include "app/core/searcher.h"
 #include "app/core/stale_images.h"
+#include "app/core/tracking/camera_watch.h"
 #include "app/core/tracking/follow.h"
+#include "app/core/tracking/shift_evidence.h"
 
 namespace dottrack::core {
 namespace {
@@ -69,6 +71,7 @@ struct Tracker::Memory {
       : rig(r),
         searcher(rig, optics_of(rig, optics), identifier),
         follower(rig, optics, identifier),
+        camera_watch(rig.cameras.size()),
         gathered(rig.target, rig.limits) {
     for (std::size_t i = 0; i < kMaxCameras; ++i) considered_of[i] = &considered[i];
   }
@@ -86,6 +89,8 @@ struct Tracker::Memory {
   Reason judge_candidate(Reason doubt);
   void follow();
   void watch(const tracking::FollowResult& followed);
+  void look_for_moved_cameras(const tracking::FollowResult& followed);
+  void report_cameras();
   bool is_better_elsewhere();
   void lock(const tracking::FollowResult& followed, double probability_of_false);
   void accept(const tracking::FollowResult& followed);
@@ -96,12 +101,14 @@ struct Tracker::Memory {
   image::Identifier identifier;
   Searcher searcher;
   tracking::Follower follower;
+  tracking::CameraWatch camera_watch;
   acquisition::GatheredEvidence gathered;
   std::array<image::Regions, kMaxCameras> considered;  // in the dots' windows
   std::array<image::Regions*, kMaxCameras> considered_of{};
   Frames frames{};
+  Frames trusted{};  // those of them that a pose may rest on
   StaleImages stale_images;
-  CameraSet delivered;
+  CameraSet delivered;  // of the trusted ones
   bool started = false;
   bool searched_last = true;  // the last tick was decided by whole images
   State state = State::acquiring;
@@ -128,17 +135,22 @@ void Tracker::Memory::take_frames(const Frames& given) {
   for (std::size_t i = 0; i < kMaxCameras; ++i) {
     result.cameras[i].stale = stale.contains(i);
     frames[i].delivered = frames[i].delivered && !stale.contains(i);
-    if (frames[i].delivered) delivered.insert(i);
     result.cameras[i].delivered = frames[i].delivered;
   }
-  result.capture_time = mean_capture_time(frames);
+  trusted = frames;
+  for (std::size_t i = 0; i < kMaxCameras; ++i) {
+    result.cameras[i].moved = camera_watch.moved().contains(i);
+    trusted[i].delivered = frames[i].delivered && !result.cameras[i].moved;
+    if (trusted[i].delivered) delivered.insert(i);
+  }
+  result.capture_time = mean_capture_time(trusted);
 }
 
 // 3.1. The reason why there is no lock; none when there is one.
 Reason Tracker::Memory::acquire() {
   searched_last = true;
   watching = false;
-  const bool ended = searcher.look(frames, result.capture_time);
+  const bool ended = searcher.look(trusted, result.capture_time);
   searcher.report(result);
   if (!ended) return Reason::work_budget;
   const Reason reason = searcher.acquisition().result().reason;
@@ -153,7 +165,8 @@ Reason Tracker::Memory::judge_candidate(Reason doubt) {
   const acquisition::CandidateLock& candidate = searcher.acquisition().result().candidate;
   result.has_candidate = true;
   result.candidate = candidate.pose;
-  const tracking::FollowResult& followed = follower.follow(frames, candidate.pose, considered_of);
+  const tracking::FollowResult& followed =
+      follower.follow(frames, candidate.pose, considered_of, camera_watch.moved());
   if (followed.reason != Reason::none) {
     gathered.miss();
     return Reason::not_confirmed;
@@ -173,13 +186,15 @@ void Tracker::Memory::lock(const tracking::FollowResult& followed, double probab
   false_lock_probability = probability_of_false;
   better_searches = 0;
   gathered.forget();
+  camera_watch.interrupt();
   accept(followed);
 }
 
 // 3.2. Where tracking fails, acquisition may find the target in the same images.
 void Tracker::Memory::follow() {
   searched_last = false;
-  const tracking::FollowResult& followed = follower.follow(frames, pose, considered_of);
+  const tracking::FollowResult& followed =
+      follower.follow(frames, pose, considered_of, camera_watch.moved());
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     result.cameras[i].regions = static_cast<std::uint32_t>(considered[i].size());
     result.cameras[i].rejected_ellipse = followed.rejected_ellipse[i];
@@ -188,9 +203,23 @@ void Tracker::Memory::follow() {
   const Reason reason = followed.reason;
   if (reason == Reason::none) {
     accept(followed);
+    look_for_moved_cameras(followed);
     if (watches) watch(followed);
   } else if (!watches || acquire() != Reason::none) {
     refuse(reason);
+  }
+}
+
+// Before anything else is followed: the follower remembers its last cycle only.
+void Tracker::Memory::look_for_moved_cameras(const tracking::FollowResult& followed) {
+  camera_watch.look(tracking::shift_evidence(rig, follower, followed, camera_watch.moved()));
+}
+
+void Tracker::Memory::report_cameras() {
+  result.rig_disagrees = camera_watch.rig_disagrees();
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    result.cameras[i].moved = camera_watch.moved().contains(i);
+    result.cameras[i].shift_px = camera_watch.shift_px(i).cast<float>();
   }
 }
 
@@ -204,12 +233,12 @@ void Tracker::Memory::watch(const tracking::FollowResult& followed) {
     watched_pose = result.pose;
     watched_witnesses = witnesses_of(followed);
   }
-  if (!searcher.look(frames, result.capture_time)) return;
+  if (!searcher.look(trusted, result.capture_time)) return;
   better_searches = is_better_elsewhere() ? better_searches + 1 : 0;
   if (better_searches < kBetterSearches) return;
   const acquisition::AcquisitionResult& found = searcher.acquisition().result();
   const tracking::FollowResult& there =
-      follower.follow(frames, found.candidate.pose, considered_of);
+      follower.follow(frames, found.candidate.pose, considered_of, camera_watch.moved());
   if (there.reason != Reason::none) return;
   result.relock = Relock::better_elsewhere;
   lock(there, found.counts.false_lock_probability);
@@ -255,6 +284,7 @@ void Tracker::Memory::refuse(Reason reason) {
   follows = false;
   better_searches = 0;
   ++result.ticks_lost;
+  camera_watch.look({});
   if (result.ticks_lost >= static_cast<std::uint32_t>(rig.limits.lost_after_ticks)) {
     state = State::acquiring;
   }
@@ -281,6 +311,7 @@ const TickResult& Tracker::step(const Frames& frames) {
     m.follow();
   }
   m.result.state = m.state;
+  m.report_cameras();
   return m.result;
 }
 
@@ -288,6 +319,10 @@ void Tracker::forget() {
   memory_->state = State::acquiring;
   memory_->searcher.give_up();
   memory_->gathered.forget();
+}
+
+void Tracker::readmit_cameras() {
+  memory_->camera_watch.readmit();
 }
 
 std::span<const image::Region> Tracker::regions(std::size_t camera) const {

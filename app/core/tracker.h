@@ -29,6 +29,9 @@ class Tracker {
   // Drops the lock, if there is one: the next step() looks for the target anew.
   void forget();
 
+  // Cameras that are left out because they have been moved count again.
+  void readmit_cameras();
+
   // The regions considered in the last tick: all candidates while acquiring, those in the dots'
   // windows while tracking.
   std::span<const image::Region> regions(std::size_t camera) const;

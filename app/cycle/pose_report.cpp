@@ -24,6 +24,7 @@ protocol::DotReport dot_report(const core::DotState& dot) {
 CameraHealth camera_health(const core::CameraTick& camera, bool iris_fault) {
   if (camera.stale) return CameraHealth::stale;
   if (!camera.delivered) return CameraHealth::no_frame;
+  if (camera.moved) return CameraHealth::moved;
   if (iris_fault) return CameraHealth::iris_fault;
   if (camera.overflow) return CameraHealth::overflow;
   return camera.used ? CameraHealth::used : CameraHealth::unused;
@@ -35,7 +36,9 @@ void judge_cameras(const CycleRecord& record, std::size_t cameras, DegradedSet& 
     degraded.insert_if(camera.stale, Degraded::camera_stale);
     degraded.insert_if(!camera.delivered && !camera.stale, Degraded::camera_missing);
     degraded.insert_if(camera.overflow, Degraded::camera_overflow);
+    degraded.insert_if(camera.moved, Degraded::camera_moved);
   }
+  degraded.insert_if(record.result.rig_disagrees, Degraded::rig_disagrees);
   degraded.insert_if(!record.unhealthy_irises.empty(), Degraded::iris_fault);
 }
 

@@ -68,19 +68,23 @@ void write_motion(const TickResult& result, Line& line) {
   for (int i = 0; i < 3; ++i) line << result.motion.rates_rad_s[i];
 }
 
-void write_view(const core::DotView& view, Line& line) {
-  if (!view.used) return line.skip(3);
+// Of a camera that has been moved, what it sees is given, too: its repair rests on it.
+void write_view(const core::DotView& view, bool moved, Line& line) {
+  if (!view.used && !(moved && view.seen)) return line.skip(3);
   line << view.pixel.x() << view.pixel.y() << view.residual_px;
 }
 
-void write_dot(const core::DotState& dot, std::size_t cameras, Line& line) {
+void write_dot(const TickResult& result, std::size_t i, std::size_t cameras, Line& line) {
+  const core::DotState& dot = result.dots[i];
   line << dot.located;
   if (dot.located) {
     line << dot.position_m.x() << dot.position_m.y() << dot.position_m.z() << dot.position_sigma_m;
   } else {
     line.skip(4);
   }
-  for (std::size_t camera = 0; camera < cameras; ++camera) write_view(dot.views[camera], line);
+  for (std::size_t camera = 0; camera < cameras; ++camera) {
+    write_view(dot.views[camera], result.cameras[camera].moved, line);
+  }
 }
 
 using CountColumn = std::pair<std::string_view, std::uint64_t>;
@@ -137,14 +141,15 @@ std::string header(const std::vector<std::string>& cameras, std::size_t dots) {
   for (const std::string& camera : cameras) {
     for (const std::string_view name :
          {"delivered", "used", "regions", "components", "rejected_size", "rejected_shape",
-          "rejected_sight", "sightings", "overflow", "stale"}) {
+          "rejected_sight", "sightings", "overflow", "stale", "moved", "shift_x_px",
+          "shift_y_px"}) {
       line << fmt::format("{}_{}", camera, name);
     }
   }
   for (const auto& [name, value] : count_columns({})) line << name;
   for (const std::string_view name :
        {"candidate_false_lock_probability", "false_lock_probability", "vx_m_s", "vy_m_s", "vz_m_s",
-        "wx_rad_s", "wy_rad_s", "wz_rad_s"}) {
+        "wx_rad_s", "wy_rad_s", "wz_rad_s", "rig_disagrees"}) {
     line << name;
   }
   line.end();
@@ -166,16 +171,20 @@ void CsvWriter::do_write(const CycleRecord& record) {
        << word_of(result.relock) << result.ticks_lost << result.cameras_used.size()
        << result.dots_used;
   write_pose(result, line);
-  for (std::size_t dot = 0; dot < dots_; ++dot) write_dot(result.dots[dot], cameras_.size(), line);
+  for (std::size_t dot = 0; dot < dots_; ++dot) {
+    write_dot(result, dot, cameras_.size(), line);
+  }
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     const core::CameraTick& camera = result.cameras[i];
     line << camera.delivered << camera.used << camera.regions << camera.components
          << camera.rejected_size << camera.rejected_shape << camera.rejected_sight
-         << camera.sightings << camera.overflow << camera.stale;
+         << camera.sightings << camera.overflow << camera.stale << camera.moved
+         << camera.shift_px.x() << camera.shift_px.y();
   }
   for (const auto& [name, value] : count_columns(result.acquisition)) line << value;
   line << result.acquisition.false_lock_probability;
   write_motion(result, line);
+  line << result.rig_disagrees;
   line.end();
   file_.write(line_);
 }

@@ -38,6 +38,7 @@ void UnitLog::do_write(const CycleRecord& record) {
   ++ticks_;
   note_state(record.result);
   note_cameras(record.result);
+  note_moved(record.result);
   note_can_state(record.can_state);
   note_can(record.counters);
   note_irises(record.unhealthy_irises);
@@ -70,6 +71,30 @@ void UnitLog::note_cameras(const core::TickResult& result) {
       away_.insert(i);
     }
   }
+}
+
+void UnitLog::note_moved(const core::TickResult& result) {
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    const core::CameraTick& camera = result.cameras[i];
+    if (!camera.moved) {
+      shift_px_[i] = camera.shift_px.norm();
+      if (moved_.contains(i))
+        log_(Severity::info, fmt::format("camera {}: counts again", cameras_[i]));
+      moved_.erase(i);
+    } else if (!moved_.contains(i)) {
+      moved_.insert(i);
+      log_(Severity::warning,
+           fmt::format("camera {}: has been moved, its dots are {:.2f} pixels off; left out until "
+                       "its model is repaired and the unit is started again",
+                       cameras_[i], shift_px_[i]));
+    }
+  }
+  if (result.rig_disagrees && !rig_disagrees_) {
+    log_(
+        Severity::warning,
+        "more cameras contradict each other than can be left out: check the target and the models");
+  }
+  rig_disagrees_ = result.rig_disagrees;
 }
 
 void UnitLog::note_can_state(hal::CanState state) {
@@ -147,6 +172,8 @@ std::string UnitLog::status() const {
   text += fmt::format(", {} of {} cameras",
                       cameras_.size() - static_cast<std::size_t>(away_.size()), cameras_.size());
   if (!away_.empty()) text += fmt::format(" (without {})", names_of(away_));
+  if (!moved_.empty()) text += fmt::format(", {} moved", names_of(moved_));
+  if (rig_disagrees_) text += ", cameras disagree";
   if (!unhealthy_irises_.empty())
     text += fmt::format(", irises of {} stuck", names_of(unhealthy_irises_));
   if (can_state_ != hal::CanState::active) text += fmt::format(", CAN {}", words_of(can_state_));

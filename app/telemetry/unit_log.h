@@ -31,6 +31,7 @@ class UnitLog final : public RecordWriter {
   void do_write(const CycleRecord& record) override;
   void note_state(const core::TickResult& result);
   void note_cameras(const core::TickResult& result);
+  void note_moved(const core::TickResult& result);
   void note_can(const CycleCounters& counters);
   void note_can_state(hal::CanState state);
   void note_irises(CameraSet unhealthy);
@@ -45,6 +46,9 @@ class UnitLog final : public RecordWriter {
   core::Reason reason_ = core::Reason::no_frames;
   std::array<std::uint32_t, kMaxCameras> ticks_away_{};
   CameraSet away_;
+  CameraSet moved_;
+  std::array<float, kMaxCameras> shift_px_{};  // before it was left out
+  bool rig_disagrees_ = false;
   CameraSet unhealthy_irises_;
   hal::CanState can_state_ = hal::CanState::active;
   bool can_silent_ = false;

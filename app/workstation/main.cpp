@@ -8,6 +8,7 @@
 
 #include "app/workstation/acquisitions_command.h"
 #include "app/workstation/busload_command.h"
+#include "app/workstation/calibrate_command.h"
 #include "app/workstation/camera_command.h"
 #include "app/workstation/dbc_command.h"
 #include "app/workstation/exit_status.h"
@@ -15,6 +16,7 @@
 #include "app/workstation/monitor_command.h"
 #include "app/workstation/replay_command.h"
 #include "app/workstation/sim_command.h"
+#include "app/workstation/survey_command.h"
 #include "app/workstation/target_command.h"
 #include "app/workstation/unit_command.h"
 
@@ -58,7 +60,9 @@ void add_commands(CLI::App& app, int& exit_status) {
   dottrack::workstation::add_sim_command(app, exit_status);
   dottrack::workstation::add_acquisitions_command(app, exit_status);
   dottrack::workstation::add_experiments_command(app, exit_status);
+  dottrack::workstation::add_calibrate_command(app, exit_status);
   dottrack::workstation::add_camera_command(app, exit_status);
+  dottrack::workstation::add_survey_command(app, exit_status);
   dottrack::workstation::add_target_command(app, exit_status);
   dottrack::workstation::add_monitor_command(app, exit_status);
   dottrack::workstation::add_dbc_command(app, exit_status);

@@ -1,6 +1,7 @@
 #include "app/workstation/sim_command.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdint>
 #include <cstdio>
@@ -17,6 +18,7 @@
 #include "app/workstation/sim_run.h"
 #include "app/workstation/trial_summary.h"
 #include "app/workstation/trials.h"
+#include "host_sim/scenarios/calibration_files.h"
 #include "host_sim/scenarios/scenario_file.h"
 
 namespace dottrack::workstation {
@@ -28,6 +30,8 @@ struct SimCommand {
   std::string scenario = "drive";
   fs::path out;
   fs::path record;
+  fs::path calibration;
+  host_sim::SurveyOptions survey;
   std::optional<std::uint64_t> seed;
   std::optional<std::uint64_t> ticks;
   std::uint64_t acquisitions = 0;
@@ -86,7 +90,9 @@ void print_summary(const SimSummary& sim, const SimCommand& command) {
                (command.out / "plots").string());
   }
   fmt::print("\n");
-  if (!command.record.empty()) {
+  if (!command.calibration.empty()) {
+    fmt::print("pictures of surveyed dots: {}\n", command.calibration.string());
+  } else if (!command.record.empty()) {
     fmt::print("frames: {} (dottrack replay {} --frames {} --out DIR)\n", command.record.string(),
                (command.out / "rig" / "rig.toml").string(), command.record.string());
   }
@@ -96,7 +102,7 @@ int run_scene(const host_sim::Scene& scene, const SimCommand& command) {
   const Interrupt interrupt;
   SimOptions options;
   options.out = command.out;
-  options.record = command.record;
+  options.record = command.calibration.empty() ? command.record : command.calibration;
   options.pictures = command.pictures;
   if (command.explain) options.explain = print_text;
   host_sim::SceneRenderer renderer(scene, command.threads);
@@ -115,6 +121,18 @@ int run_scene(const host_sim::Scene& scene, const SimCommand& command) {
   print_summary(*sim, command);
   if (!sim->loop.output_fault.empty()) return complain(sim->loop.output_fault, kFailed);
   return sim->good(scene) ? kDone : kFailed;
+}
+
+// What `dottrack calibrate` reads, but for the frames, which the run records.
+Result<void> write_calibration(const host_sim::Scene& scene, const SimCommand& command) {
+  if (command.calibration.empty()) return {};
+  if (const auto made = make_folder(command.calibration); !made) return made;
+  host_sim::SurveyOptions survey = command.survey;
+  survey.seed = scene.seed;
+  const auto wrong = host_sim::write_calibration(scene, survey, command.calibration);
+  if (!wrong) return tl::unexpected<Error>(wrong.error());
+  if (!wrong->empty()) fmt::print("surveyed wrongly: {}\n", fmt::join(*wrong, " "));
+  return {};
 }
 
 int run_placements(const host_sim::Scene& scene, const SimCommand& command) {
@@ -157,7 +175,26 @@ int run(const SimCommand& command) {
   if (const auto made = make_folder(command.out); !made) {
     return complain(made.error().message, kWrongUse);
   }
+  if (const auto done = write_calibration(*scene, command); !done) {
+    return complain(done.error().message, kWrongUse);
+  }
   return command.acquisitions == 0 ? run_scene(*scene, command) : run_placements(*scene, command);
+}
+
+void add_calibration_options(CLI::App& sub, SimCommand& command, CLI::Option& record) {
+  auto* const calibration =
+      sub.add_option("--calibration", command.calibration,
+                     "Folder for what `dottrack calibrate` reads: the frames, the survey of the "
+                     "hall's calibration dots, approximate models and the truth");
+  calibration->excludes(&record);
+  sub.add_option("--survey-sigma", command.survey.sigma_m,
+                 "Metres, standard deviation of each coordinate of a surveyed dot")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0))
+      ->needs(calibration);
+  sub.add_option("--wrong-dots", command.survey.wrong_dots,
+                 "So many dots are surveyed wrongly, by 3 to 10 cm")
+      ->needs(calibration);
 }
 
 void add_trial_options(CLI::App& sub, SimCommand& command, CLI::Option& record) {
@@ -198,6 +235,7 @@ void add_sim_command(CLI::App& app, int& exit_status) {
   sub->add_option("--ticks", command->ticks, "Another length than the scenario's");
   auto* const record = sub->add_option("--record", command->record,
                                        "Folder for the frames, as `dottrack replay` reads them");
+  add_calibration_options(*sub, *command, *record);
   add_trial_options(*sub, *command, *record);
   sub->add_option("--threads", command->threads, "For rendering; 0: as many as the machine has")
       ->check(CLI::Range(0, 256));

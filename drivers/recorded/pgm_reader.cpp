@@ -40,23 +40,37 @@ std::optional<int> read_number(std::istream& in) {
   return digits == 0 ? std::nullopt : std::optional(value);
 }
 
-// What is wrong with the header, in a few words; empty when it is right.
-std::string header_fault(std::istream& in, int width_px, int height_px) {
+// The header's numbers, or what is wrong with them in a few words.
+struct Header {
+  PgmSize size;
+  std::string fault;
+};
+
+Header read_header(std::istream& in) {
   if (in.get() != 'P' || in.get() != '5' || !(is_space(in.peek()) || in.peek() == '#')) {
-    return "does not start with P5";
+    return {{}, "does not start with P5"};
   }
   const std::optional<int> width = read_number(in);
   const std::optional<int> height = read_number(in);
   const std::optional<int> maxval = read_number(in);
-  if (in.peek() == std::istream::traits_type::eof()) return "ends inside its header";
-  if (!width || !height || !maxval) return "its header is not width, height and maxval";
-  if (!is_space(in.get())) return "its header does not end in one white space";
-  if (*width != width_px || *height != height_px) {
-    return fmt::format("is of {} x {} pixels", *width, *height);
+  if (in.peek() == std::istream::traits_type::eof()) return {{}, "ends inside its header"};
+  if (!width || !height || !maxval) return {{}, "its header is not width, height and maxval"};
+  if (!is_space(in.get())) return {{}, "its header does not end in one white space"};
+  const PgmSize size{*width, *height};
+  if (*maxval > 255) return {size, fmt::format("has 16 bits a pixel (maxval {})", *maxval)};
+  if (*maxval != 255) return {size, fmt::format("has maxval {}", *maxval)};
+  return {size, {}};
+}
+
+// A wrong size is said before a wrong maxval.
+std::string header_fault(std::istream& in, int width_px, int height_px) {
+  const Header header = read_header(in);
+  const PgmSize& size = header.size;
+  const bool sized = size.width_px > 0 || header.fault.empty();
+  if (sized && (size.width_px != width_px || size.height_px != height_px)) {
+    return fmt::format("is of {} x {} pixels", size.width_px, size.height_px);
   }
-  if (*maxval > 255) return fmt::format("has 16 bits a pixel (maxval {})", *maxval);
-  if (*maxval != 255) return fmt::format("has maxval {}", *maxval);
-  return {};
+  return header.fault;
 }
 
 std::string pixels_fault(std::istream& in, std::span<std::uint8_t> pixels) {
@@ -88,6 +102,23 @@ Result<void> read_pgm(const std::filesystem::path& path, int width_px, int heigh
   if (wrong.empty()) return {};
   return fail(fmt::format("{} {}; expected a binary PGM (P5) of {} x {} pixels with maxval 255",
                           path.string(), wrong, width_px, height_px));
+}
+
+Result<PgmSize> read_pgm_size(const std::filesystem::path& path) {
+  constexpr int kMost_px = 32768;
+  std::error_code ignored;
+  std::string wrong = "is not a file";
+  if (std::filesystem::is_regular_file(path, ignored)) {
+    std::ifstream in(path, std::ios::binary);
+    const Header header = read_header(in);
+    const auto sensible = [](int side) { return side > 0 && side <= kMost_px; };
+    const bool small = sensible(header.size.width_px) && sensible(header.size.height_px);
+    if (in && header.fault.empty() && small) return header.size;
+    wrong = !header.fault.empty() ? header.fault
+                                  : fmt::format("is of {} x {} pixels", header.size.width_px,
+                                                header.size.height_px);
+  }
+  return fail(fmt::format("{} {}; expected a binary PGM (P5) with maxval 255", path.string(), wrong));
 }
 
 }  // namespace dottrack::drivers

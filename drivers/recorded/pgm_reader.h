@@ -16,4 +16,13 @@ namespace dottrack::drivers {
 Result<void> read_pgm(const std::filesystem::path& path, int width_px, int height_px,
                       std::span<std::uint8_t> pixels);
 
+struct PgmSize {
+  int width_px = 0;
+  int height_px = 0;
+};
+
+// What the header says. Anything but P5, maxval 255 and at most 32768 pixels each way is an error of
+// one line, as above.
+Result<PgmSize> read_pgm_size(const std::filesystem::path& path);
+
 }  // namespace dottrack::drivers

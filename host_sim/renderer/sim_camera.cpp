@@ -70,4 +70,14 @@ Eigen::Matrix3d looking_at(const Eigen::Vector3d& centre_m, const Eigen::Vector3
   return rotation;
 }
 
+Eigen::Matrix3d turn(const Eigen::Vector3d& v) {
+  const double angle = v.norm();
+  if (angle == 0.0) return Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d axis = v / angle;
+  Eigen::Matrix3d across;
+  across << 0.0, -axis.z(), axis.y(), axis.z(), 0.0, -axis.x(), -axis.y(), axis.x(), 0.0;
+  return Eigen::Matrix3d::Identity() + sine(angle) * across +
+         (1.0 - cosine(angle)) * across * across;
+}
+
 }  // namespace dottrack::host_sim

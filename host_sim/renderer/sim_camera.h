@@ -55,4 +55,7 @@ class SimCamera {
 Eigen::Matrix3d looking_at(const Eigen::Vector3d& centre_m, const Eigen::Vector3d& aim_m,
                            double roll_rad, const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ());
 
+// The rotation by |v| radians about v (Rodrigues).
+Eigen::Matrix3d turn(const Eigen::Vector3d& v);
+
 }  // namespace dottrack::host_sim

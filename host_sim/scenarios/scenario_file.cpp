@@ -85,7 +85,7 @@ class ScenarioReader {
     TableReader root(complaint_, file, "the scenario",
                      {"scenario", "hall", "vehicle", "motion", "light", "light_change", "person",
                       "look_alike", "cover", "cameras", "camera", "sensor", "grabber",
-                      "camera_fault", "iris", "can", "can_outage", "dots"});
+                      "camera_fault", "camera_move", "iris", "can", "can_outage", "dots"});
     read_head(complaint_, root.table("scenario"), overrides_, scene_);
     Grounds grounds = read_hall(complaint_, root.table("hall"), scene_.seed);
     scene_.length_m = grounds.length_m;
@@ -139,6 +139,8 @@ class ScenarioReader {
         hall_lamps(grounds.length_m, grounds.width_m, grounds.hall.height_m, scene_.seed);
     grounds.hall.distance_to_drive_m = distance_to(drive.way);
     scene_.world.hall = make_hall(grounds.hall, scene_.terrain, scene_.world.lamps);
+    scene_.calibration_dots = static_cast<std::size_t>(grounds.hall.calibration_dots) +
+                              static_cast<std::size_t>(grounds.hall.calibration_boxes);
   }
 
   Complaint& complaint_;

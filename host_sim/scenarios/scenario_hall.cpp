@@ -22,9 +22,9 @@ Grounds read_hall(Complaint& complaint, const toml::table* table, std::uint64_t 
   Grounds grounds;
   grounds.hall.seed = seed;
   if (table == nullptr) return grounds;
-  TableReader reader(
-      complaint, *table, "[hall]",
-      {"length_m", "width_m", "rocks", "look_alikes", "lander", "furniture", "calibration_dots"});
+  TableReader reader(complaint, *table, "[hall]",
+                     {"length_m", "width_m", "rocks", "look_alikes", "lander", "furniture",
+                      "calibration_dots", "calibration_boxes"});
   HallOptions& hall = grounds.hall;
   hall.length_m = grounds.length_m = reader.number("length_m", grounds.length_m, kSide);
   hall.width_m = grounds.width_m = reader.number("width_m", grounds.width_m, kSide);
@@ -33,6 +33,7 @@ Grounds read_hall(Complaint& complaint, const toml::table* table, std::uint64_t 
   hall.lander = reader.boolean("lander", hall.lander);
   hall.furniture = reader.boolean("furniture", hall.furniture);
   hall.calibration_dots = reader.integer("calibration_dots", hall.calibration_dots, kThings);
+  hall.calibration_boxes = reader.integer("calibration_boxes", hall.calibration_boxes, kThings);
   return grounds;
 }
 

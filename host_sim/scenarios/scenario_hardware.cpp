@@ -1,9 +1,10 @@
-// [grabber], [[camera_fault]], [iris], [can], [[can_outage]] and [dots].
+// [grabber], [[camera_fault]], [[camera_move]], [iris], [can], [[can_outage]] and [dots].
 
 #include <algorithm>
 
 #include "app/config/rig_rules.h"
 #include "host_sim/scenarios/scenario_reader.h"
+#include "host_sim/world/portable_math.h"
 
 namespace dottrack::host_sim {
 namespace {
@@ -17,6 +18,8 @@ constexpr NumberRule kDataBitRate{9999.0, 8e6, "a number of bits a second from 1
 constexpr IntegerRule kBaseId{0, protocol::kLastBaseId, "a whole number from 0 to 1984"};
 constexpr IntegerRule kExtendedBaseId{0, protocol::kLastExtendedBaseId,
                                       "a whole number from 0 to 536870848"};
+constexpr NumberRule kTurn{-180.0, 180.0, "three numbers of degrees from -180 to 180", true};
+constexpr NumberRule kShift{-10.0, 10.0, "three numbers of metres from -10 to 10", true};
 constexpr NumberRule kLoad{0.0, 0.95, "a number from 0 to 0.95", true};
 
 void read_grabber(Complaint& complaint, const toml::table& table, GrabberModel& grabber) {
@@ -36,21 +39,43 @@ void read_span(TableReader& reader, Span& span) {
   }
 }
 
-CameraFault read_fault(Complaint& complaint, const toml::table& table, const Scene& scene) {
-  TableReader reader(complaint, table, "[[camera_fault]]", {"camera", "kind", "from_s", "to_s"});
-  CameraFault fault;
+std::size_t read_camera(TableReader& reader, const Scene& scene) {
   const std::string name = reader.text("camera");
   const auto camera = std::find_if(scene.cameras.begin(), scene.cameras.end(),
                                    [&](const SceneCamera& c) { return c.name == name; });
   if (camera == scene.cameras.end()) {
     reader.complain("camera", config::in_quotes(name), "the name of a camera of the scenario");
   }
-  fault.camera = static_cast<std::size_t>(camera - scene.cameras.begin());
+  return static_cast<std::size_t>(camera - scene.cameras.begin());
+}
+
+CameraFault read_fault(Complaint& complaint, const toml::table& table, const Scene& scene) {
+  TableReader reader(complaint, table, "[[camera_fault]]", {"camera", "kind", "from_s", "to_s"});
+  CameraFault fault;
+  fault.camera = read_camera(reader, scene);
   if (!reader.has("kind")) reader.text("kind");
   fault.kind =
       static_cast<CameraFaultKind>(reader.choice("kind", {"dead", "stuck", "torn", "late"}));
   read_span(reader, fault);
   return fault;
+}
+
+CameraMove read_move(Complaint& complaint, const toml::table& table, const Scene& scene) {
+  TableReader reader(complaint, table, "[[camera_move]]",
+                     {"camera", "at_s", "turn_deg", "shift_m"});
+  CameraMove move;
+  move.camera = read_camera(reader, scene);
+  move.at_s = reader.number("at_s", std::nullopt, kSeconds);
+  const auto vector = [&](std::string_view key, const NumberRule& rule) {
+    const std::vector<double> v = reader.numbers(key, 3, std::vector<double>(3, 0.0), rule);
+    return Eigen::Vector3d(v[0], v[1], v[2]);
+  };
+  move.turn_rad = radians(1.0) * vector("turn_deg", kTurn);
+  move.shift_m = vector("shift_m", kShift);
+  if (move.turn_rad.isZero(0.0) && move.shift_m.isZero(0.0)) {
+    reader.complain("camera", "no move at all", "turn_deg, shift_m or both");
+  }
+  return move;
 }
 
 void read_iris(Complaint& complaint, const toml::table& table, IrisModel& iris) {
@@ -85,6 +110,11 @@ void read_hardware(Complaint& complaint, TableReader& root, Scene& scene) {
   for (const toml::table* table : root.tables("camera_fault")) {
     scene.camera_faults.push_back(read_fault(complaint, *table, scene));
   }
+  for (const toml::table* table : root.tables("camera_move")) {
+    scene.camera_moves.push_back(read_move(complaint, *table, scene));
+  }
+  std::stable_sort(scene.camera_moves.begin(), scene.camera_moves.end(),
+                   [](const CameraMove& a, const CameraMove& b) { return a.at_s < b.at_s; });
   if (const auto* table = root.table("iris")) read_iris(complaint, *table, scene.iris);
   if (const auto* table = root.table("can")) read_can(complaint, *table, scene.can);
   for (const toml::table* table : root.tables("can_outage")) {

@@ -43,6 +43,16 @@ struct Span {
   double to_s = 0.0;
 };
 
+// Somebody knocks against a camera, and it stays so.
+struct CameraMove {
+  std::size_t camera = 0;
+  double at_s = 0.0;
+  Eigen::Vector3d turn_rad = Eigen::Vector3d::Zero();  // rotation vector in camera axes
+  Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();   // world
+};
+
+SimCamera moved(const SimCamera& camera, const CameraMove& move);
+
 struct Scene {
   std::string name;
   std::string description;  // one line
@@ -53,6 +63,7 @@ struct Scene {
   double width_m = 9.0;           // along y
   Terrain terrain{22.0, 9.0, 1};  // that the world's hall is built on
   World world;
+  std::size_t calibration_dots = 0;  // so many of the hall's marks, the first ones
   std::vector<SceneCamera> cameras;
   // The body that carries the target; absent in a scene with nothing but look-alikes.
   std::optional<std::size_t> vehicle;
@@ -61,6 +72,7 @@ struct Scene {
   DotAppearance appearance;
   GrabberModel grabber;
   std::vector<CameraFault> camera_faults;
+  std::vector<CameraMove> camera_moves;  // in order of time; `cameras` are as before all of them
   IrisModel iris;
   CanModel can;
 };

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "host_sim/renderer/camera_text.h"
 
@@ -44,8 +45,8 @@ std::string_view ending(const Lens& lens) {
   return ".txt";
 }
 
-std::string model_file(const SceneCamera& camera) {
-  return camera.name + std::string(ending(camera.camera.lens()));
+std::string model_file(const std::string& camera, const Lens& lens) {
+  return camera + std::string(ending(lens));
 }
 
 std::string can_toml(const CanModel& can) {
@@ -57,19 +58,21 @@ std::string can_toml(const CanModel& can) {
   return text;
 }
 
-std::string rig_toml(const Scene& scene) {
+// `models`: one a camera.
+std::string rig_toml(const Scene& scene, std::span<const SimCamera> models) {
   const DotAppearance& dots = scene.appearance;
   std::string text = fmt::format("[rig]\nname = \"{}\"\nframe_rate_hz = {:.17g}\n", scene.name,
                                  scene.frame_rate_hz);
   if (text.find('.', text.rfind('=')) == std::string::npos) text.insert(text.size() - 1, ".0");
-  for (const SceneCamera& camera : scene.cameras) {
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const SceneCamera& camera = scene.cameras[i];
     text += fmt::format(
         "\n[[camera]]\nname = \"{0}\"\nmodel = \"{7}\"\ndistance_m = [{1:.3f}, {2:.3f}]\n"
         "intensity_dn = [{3}, {4}]\nmin_contrast_dn = {5}\n"
         "min_contrast_part = {8}\nbackground_px = {6}\n",
         camera.name, dots.distance_min_m, dots.distance_max_m, dots.intensity_min_dn,
-        dots.intensity_max_dn, dots.min_contrast_dn, dots.background_px, model_file(camera),
-        dots.min_contrast_part);
+        dots.intensity_max_dn, dots.min_contrast_dn, dots.background_px,
+        model_file(camera.name, models[i].lens()), dots.min_contrast_part);
   }
   text += fmt::format(
       "\n[target]\nname = \"rover\"\ndots = \"target.csv\"\nupright = true\nmax_step_m = {:.3f}\n",
@@ -94,14 +97,18 @@ Result<void> write_rig(const Scene& scene, const fs::path& folder,
                        std::span<const SimCamera> models) {
   assert(models.empty() || models.size() == scene.cameras.size());
   if (auto made = make_folder(folder); !made) return made;
-  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-    const SceneCamera& camera = scene.cameras[i];
-    const std::string text = camera_text(models.empty() ? camera.camera : models[i],
-                                         "simulated ceiling camera " + camera.name);
-    if (auto done = write_bytes(folder / model_file(camera), text); !done) return done;
+  std::vector<SimCamera> told(models.begin(), models.end());
+  if (models.empty()) {
+    for (const SceneCamera& camera : scene.cameras) told.push_back(camera.camera);
+  }
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    const std::string& name = scene.cameras[i].name;
+    const std::string text = camera_text(told[i], "simulated ceiling camera " + name);
+    if (auto done = write_bytes(folder / model_file(name, told[i].lens()), text); !done)
+      return done;
   }
   if (auto done = write_bytes(folder / "target.csv", target_csv(scene.target)); !done) return done;
-  return write_bytes(folder / "rig.toml", rig_toml(scene));
+  return write_bytes(folder / "rig.toml", rig_toml(scene, told));
 }
 
 Result<void> write_pgm(const fs::path& file, const ImageView& image) {

@@ -1,6 +1,7 @@
 #include "host_sim/scenarios/scene_renderer.h"
 
 #include <cassert>
+#include <limits>
 
 #include "host_sim/scenarios/parallel.h"
 
@@ -11,11 +12,29 @@ SceneRenderer::SceneRenderer(const Scene& scene, unsigned threads)
       threads_(threads),
       hall_(scene.world.hall, scene.world.lamps),
       bodies_(scene.world.bodies),
-      views_(scene.cameras.size()) {
-  for_each_index(views_.size(), threads_, [&](std::size_t i) {
-    const SceneCamera& camera = scene_.cameras[i];
-    views_[i] = std::make_unique<CameraView>(hall_, camera.camera, camera.sensor);
-  });
+      stands_(scene.cameras.size()) {
+  for_each_index(stands_.size(), threads_, [&](std::size_t i) { stands_[i] = stands_of(i); });
+}
+
+SceneRenderer::Stands SceneRenderer::stands_of(std::size_t camera) const {
+  const SceneCamera& as_mounted = scene_.cameras[camera];
+  SimCamera now = as_mounted.camera;
+  Stands stands;
+  stands.push_back({std::numeric_limits<double>::lowest(),
+                    std::make_unique<CameraView>(hall_, now, as_mounted.sensor)});
+  for (const CameraMove& move : scene_.camera_moves) {
+    if (move.camera != camera) continue;
+    now = moved(now, move);
+    stands.push_back({move.at_s, std::make_unique<CameraView>(hall_, now, as_mounted.sensor)});
+  }
+  return stands;
+}
+
+CameraView& SceneRenderer::view(std::size_t camera, double time_s) const {
+  const Stands& stands = stands_[camera];
+  std::size_t last = stands.size() - 1;
+  while (stands[last].from_s > time_s) --last;
+  return *stands[last].view;
 }
 
 void SceneRenderer::render(std::span<const Exposure> exposures, std::vector<GreyImage>& images) {
@@ -24,20 +43,23 @@ void SceneRenderer::render(std::span<const Exposure> exposures, std::vector<Grey
 
 void SceneRenderer::render(std::span<const Exposure> exposures, std::span<const MovingBody> bodies,
                            const LightPlan& light, std::vector<GreyImage>& images) {
-  assert(exposures.size() == views_.size());
-  images.resize(views_.size());
-  for_each_index(views_.size(), threads_,
-                 [&](std::size_t i) { views_[i]->render(exposures[i], bodies, light, images[i]); });
+  assert(exposures.size() == stands_.size());
+  images.resize(stands_.size());
+  for_each_index(stands_.size(), threads_, [&](std::size_t i) {
+    view(i, exposures[i].middle_s).render(exposures[i], bodies, light, images[i]);
+  });
 }
 
 void SceneRenderer::collect(std::span<Shot> shots, Detail detail) {
   for (Shot& shot : shots) {
-    assert(shot.exposures.size() == views_.size());
-    shot.charges_dn.resize(views_.size());
+    assert(shot.exposures.size() == stands_.size());
+    shot.charges_dn.resize(stands_.size());
   }
-  for_each_index(views_.size(), threads_, [&](std::size_t i) {
+  for_each_index(stands_.size(), threads_, [&](std::size_t i) {
     for (Shot& shot : shots) {
-      views_[i]->collect(shot.exposures[i], shot.bodies, shot.light, detail, shot.charges_dn[i]);
+      const Exposure& exposure = shot.exposures[i];
+      view(i, exposure.middle_s)
+          .collect(exposure, shot.bodies, shot.light, detail, shot.charges_dn[i]);
     }
   });
 }
@@ -46,7 +68,7 @@ void SceneRenderer::read(const Shot& shot, std::size_t camera, const NoiseKey& n
                          GreyImage& image) const {
   Exposure exposure = shot.exposures[camera];
   exposure.noise = noise;
-  views_[camera]->read(shot.charges_dn[camera], exposure, image);
+  view(camera, exposure.middle_s).read(shot.charges_dn[camera], exposure, image);
 }
 
 }  // namespace dottrack::host_sim

@@ -1,6 +1,7 @@
 #pragma once
 // A scene through all of its cameras.
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
@@ -52,7 +53,17 @@ class SceneRenderer {
   unsigned threads_;
   Hall hall_;
   BodyScenes bodies_;
-  std::vector<std::unique_ptr<CameraView>> views_;
+  // A camera as it stands from an instant on.
+  struct Stand {
+    double from_s;
+    std::unique_ptr<CameraView> view;
+  };
+  using Stands = std::vector<Stand>;
+
+  Stands stands_of(std::size_t camera) const;
+  CameraView& view(std::size_t camera, double time_s) const;
+
+  std::vector<Stands> stands_;  // one a camera, in order of time
 };
 
 }  // namespace dottrack::host_sim

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "host_sim/world/portable_math.h"
-
 namespace dottrack::host_sim {
 namespace {
 
@@ -24,16 +22,6 @@ constexpr double kSingular = 1e-8;
 constexpr double kLeastSigma_px = 1e-3;  // where no errors were announced
 // Of the differences that stand for derivatives: metres, radians, pixels, radial terms.
 constexpr Numbers kSteps = {1e-4, 1e-4, 1e-4, 1e-5, 1e-5, 1e-5, 1e-2, 1e-2, 1e-2, 1e-2, 1e-4, 1e-4};
-
-// The rotation by |v| about v (Rodrigues).
-Matrix3d turn(const Vector3d& v) {
-  const double angle = v.norm();
-  if (angle == 0.0) return Matrix3d::Identity();
-  const Vector3d axis = v / angle;
-  Matrix3d across;
-  across << 0.0, -axis.z(), axis.y(), axis.z(), 0.0, -axis.x(), -axis.y(), axis.x(), 0.0;
-  return Matrix3d::Identity() + sine(angle) * across + (1.0 - cosine(angle)) * across * across;
-}
 
 SimCamera moved(const SimCamera& camera, const Numbers& by) {
   Lens lens = camera.lens();

@@ -22,7 +22,8 @@ struct HallOptions {
   int look_alikes = 30;
   bool lander = true;
   bool furniture = true;
-  int calibration_dots = 24;
+  int calibration_dots = 24;  // around the sandbox
+  int calibration_boxes = 0;  // with a calibration dot on top, all over the sand
   // How far a point of the ground is from where the vehicle's middle comes: nothing is put in its
   // way. Not set: no drive.
   std::function<double(const Eigen::Vector2d&)> distance_to_drive_m;
@@ -33,8 +34,8 @@ struct HallOptions {
 // with the lamps that they belong to.
 Model make_hall(const HallOptions& options, const Terrain& terrain, std::span<const Lamp> lamps);
 
-// The middles of the large dots that the cameras are calibrated by, in the order of the marks that
-// make_hall() puts first.
+// The middles of the large dots that the cameras are calibrated by, those on boxes last, in the
+// order of the marks that make_hall() puts first.
 std::vector<Eigen::Vector3d> calibration_dot_centres(const HallOptions& options,
                                                      const Terrain& terrain);
 

@@ -30,6 +30,10 @@ std::string_view to_string(Degraded reason) {
       return "covariance_unknown";
     case Degraded::few_cameras:
       return "few_cameras";
+    case Degraded::camera_moved:
+      return "camera_moved";
+    case Degraded::rig_disagrees:
+      return "rig_disagrees";
   }
   return "unknown";
 }

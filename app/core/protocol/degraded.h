@@ -21,9 +21,11 @@ enum class Degraded : std::uint8_t {
   not_real_time = 10,       // the unit runs without what it asked the machine for
   covariance_unknown = 11,  // there is a pose, but its covariance does not fit into the messages
   few_cameras = 12,         // the pose rests on two cameras only
+  camera_moved = 13,        // a camera stands no longer as its model says, and is left out
+  rig_disagrees = 14,       // more cameras contradict each other than can be left out
 };
 
-inline constexpr unsigned kDegradedReasons = 13;
+inline constexpr unsigned kDegradedReasons = 15;
 
 class DegradedSet {
  public:

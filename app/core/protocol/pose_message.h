@@ -26,6 +26,7 @@ enum class CameraHealth : std::uint8_t {
   stale = 4,     // delivered the picture of the tick before again
   overflow = 5,  // sees more regions than there is room for
   iris_fault = 6,
+  moved = 7,  // stands no longer as its model says: left out
 };
 
 enum class Visibility : std::uint8_t { not_seen = 0, one_camera = 1, located = 2 };

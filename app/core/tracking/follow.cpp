@@ -30,8 +30,9 @@ bool same_region(const image::Region& a, const image::Region& b) {
   return (a.centroid_px - b.centroid_px).squaredNorm() < reach * reach;
 }
 
-core::DotView view_of(const image::Region& region, double residual_px) {
-  return {.used = true,
+core::DotView view_of(const image::Region& region, double residual_px, bool used) {
+  return {.seen = true,
+          .used = used,
           .pixel = region.centroid_px.cast<float>(),
           .semi_major_px = static_cast<float>(region.semi_major_px),
           .semi_minor_px = static_cast<float>(region.semi_minor_px),
@@ -113,8 +114,8 @@ void Follower::update(std::size_t camera, const ImageView& image, image::Regions
 bool Follower::triangulate_dot(std::size_t dot, estimation::LocatedDot& located) {
   estimation::Views views;
   for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
-    const Found& found = found_[camera][dot];
-    if (found.any) views.push_back({camera, &rig_->cameras[camera], &found.sighting});
+    if (!counts(camera, dot)) continue;
+    views.push_back({camera, &rig_->cameras[camera], &found_[camera][dot].sighting});
   }
   core::DotState& state = result_.dots[dot];
   state = {};
@@ -149,8 +150,9 @@ bool Follower::drop_wrong_glimpses(LocatedDots& located) const {
     const Eigen::Vector3d place =
         result_.pose.orientation * rig_->target.dots[dot.dot].position_m + result_.pose.position_m;
     for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
-      const Found& found = found_[camera][dot.dot];
-      if (found.any) return !found.sighting.box_contains(found.sighting.pixel_of(place));
+      if (!counts(camera, dot.dot)) continue;
+      const estimation::Sighting& glimpse = found_[camera][dot.dot].sighting;
+      return !glimpse.box_contains(glimpse.pixel_of(place));
     }
     return true;
   };
@@ -178,9 +180,9 @@ bool Follower::drop_wrong_shapes() {
     for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
       Found& found = found_[camera][i];
       if (!found.any || !has_wrong_shape(camera, dot, found)) continue;
+      any = any || counts(camera, i);
       found.any = false;
       ++result_.rejected_ellipse[camera];
-      any = true;
     }
   }
   return any;
@@ -225,23 +227,30 @@ void Follower::record_views(const LocatedDots& located) {
                          result_.pose.position_m;
     }
     for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
-      if (!state.cameras.contains(camera)) continue;
-      const image::Region& region = found_[camera][dot.dot].region;
-      Eigen::Vector2d pixel;
-      if (geometry::project(rig_->cameras[camera].model, state.position_m, pixel) !=
-          geometry::OpticsStatus::ok) {
-        continue;
-      }
-      state.views[camera] = view_of(region, (pixel - region.centroid_px).norm());
-      result_.cameras_used.insert(camera);
+      if (found_[camera][dot.dot].any) record_view(camera, dot.dot);
     }
   }
 }
 
+void Follower::record_view(std::size_t camera, std::size_t dot) {
+  core::DotState& state = result_.dots[dot];
+  const image::Region& region = found_[camera][dot].region;
+  Eigen::Vector2d pixel;
+  if (geometry::project(rig_->cameras[camera].model, state.position_m, pixel) !=
+      geometry::OpticsStatus::ok) {
+    return;
+  }
+  const bool used = state.cameras.contains(camera);
+  state.views[camera] = view_of(region, (pixel - region.centroid_px).norm(), used);
+  if (used) result_.cameras_used.insert(camera);
+}
+
 const FollowResult& Follower::follow(std::span<const core::CameraFrame> frames,
                                      const core::Pose& previous,
-                                     std::span<image::Regions* const> regions) {
+                                     std::span<image::Regions* const> regions,
+                                     CameraSet distrusted) {
   result_ = FollowResult{};
+  distrusted_ = distrusted;
   predict(previous);
   for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
     for (Found& found : found_[camera]) found.any = false;

@@ -42,8 +42,17 @@ class Follower {
   // from, and a region counts only if it may be the ellipse that the dot shows: in the previous
   // pose, and once more in the pose found, which is then found anew without the regions that may
   // not (3.3).
+  //
+  // `distrusted` cameras are looked through all the same, but nothing rests on what they see.
   const FollowResult& follow(std::span<const core::CameraFrame> frames, const core::Pose& previous,
-                             std::span<image::Regions* const> regions);
+                             std::span<image::Regions* const> regions, CameraSet distrusted = {});
+
+  // What a camera saw in a dot's place in the last cycle, whether the pose rests on it or not;
+  // null: nothing. Valid until the next cycle.
+  const estimation::Sighting* sighting(std::size_t camera, std::size_t dot) const {
+    const Found& found = found_[camera][dot];
+    return found.any ? &found.sighting : nullptr;
+  }
 
  private:
   struct Found {  // the region chosen for one dot in one camera
@@ -64,6 +73,9 @@ class Follower {
                 image::Regions& considered);
   bool choose_region(std::size_t camera, const ExpectedDot& expected, image::Regions& considered,
                      image::Region& chosen);
+  bool counts(std::size_t camera, std::size_t dot) const {
+    return found_[camera][dot].any && !distrusted_.contains(camera);
+  }
   void drop_shared_regions(std::size_t camera);
   void triangulate(LocatedDots& located);
   bool triangulate_dot(std::size_t dot, estimation::LocatedDot& located);
@@ -73,6 +85,7 @@ class Follower {
   Attempt locate(LocatedDots& located, const core::Pose& previous);
   bool steps_too_far() const;
   void record_views(const LocatedDots& located);
+  void record_view(std::size_t camera, std::size_t dot);
 
   const core::Rig* rig_;
   std::span<const geometry::Optics> optics_;
@@ -80,6 +93,7 @@ class Follower {
   std::array<PlacedDot, core::kMaxDots> predicted_{};
   std::array<std::array<Found, core::kMaxDots>, kMaxCameras> found_{};
   image::Regions window_regions_;
+  CameraSet distrusted_;
   FollowResult result_;
 };
 

@@ -88,6 +88,13 @@ TEST(PoseReport, EveryReasonOfACameraIsTold) {
   expect_only(record, Degraded::iris_fault);
   EXPECT_EQ(report(record).cameras[2], CameraHealth::iris_fault);
   record = good_tick();
+  record.result.cameras[1].moved = true;
+  expect_only(record, Degraded::camera_moved);
+  EXPECT_EQ(report(record).cameras[1], CameraHealth::moved);
+  record = good_tick();
+  record.result.rig_disagrees = true;
+  expect_only(record, Degraded::rig_disagrees);
+  record = good_tick();
   record.result.cameras[0].used = false;
   EXPECT_EQ(report(record).cameras[0], CameraHealth::unused);
 }

@@ -313,7 +313,31 @@ TEST(FindScenario, TakesAPathOrABuiltInName) {
   const auto none = find_scenario("no such thing");
   ASSERT_FALSE(none);
   EXPECT_THAT(none.error().message,
-              HasSubstr("no such scenario; expected a file or one of camera_faults,"));
+              HasSubstr("no such scenario; expected a file or one of calibration, camera_faults,"));
+}
+
+TEST(ScenarioFile, CamerasAreKnockedAgainst) {
+  const auto scene = parse_scenario(
+      "[scenario]\nname = \"s\"\n[motion]\nkind = \"stand\"\nat = [0.0, 0.0]\n"
+      "[[camera_move]]\ncamera = \"cam3\"\nat_s = 2\nshift_m = [0.0, 0.02, 0.0]\n"
+      "[[camera_move]]\ncamera = \"cam2\"\nat_s = 1\nturn_deg = [0.0, 90.0, 0.0]\n",
+      "s.toml");
+  ASSERT_TRUE(scene) << scene.error().message;
+  ASSERT_EQ(scene->camera_moves.size(), 2U);
+  EXPECT_EQ(scene->camera_moves[0].camera, 1U);
+  EXPECT_EQ(scene->camera_moves[1].shift_m, Eigen::Vector3d(0.0, 0.02, 0.0));
+  // About the picture's downward axis: it looks to where its right was.
+  const SimCamera& before = scene->cameras[1].camera;
+  const SimCamera after = moved(before, scene->camera_moves[0]);
+  EXPECT_LT((after.rotation().row(2) - before.rotation().row(0)).norm(), 1e-12);
+  EXPECT_EQ(after.centre_m(), before.centre_m());
+  const auto nothing = parse_scenario(
+      "[scenario]\nname = \"s\"\n[motion]\nkind = \"stand\"\nat = [0.0, 0.0]\n"
+      "[[camera_move]]\ncamera = \"cam3\"\nat_s = 2\n",
+      "s.toml");
+  ASSERT_FALSE(nothing);
+  EXPECT_EQ(nothing.error().message,
+            "s.toml:7: no move at all; expected turn_deg, shift_m or both");
 }
 
 class BuiltInScenario : public testing::TestWithParam<const char*> {};
@@ -331,7 +355,7 @@ INSTANTIATE_TEST_SUITE_P(All, BuiltInScenario,
                          testing::Values("drive", "clutter", "people", "lights", "sun_blooming",
                                          "ramp", "crane_lines", "survey_grid", "occlusion",
                                          "kidnap", "two_views", "camera_faults", "three_dots",
-                                         "eight_dots", "empty"));
+                                         "eight_dots", "empty", "calibration"));
 
 TEST(BuiltInScenarios, TwoViewsIsAPlaceThatTwoCamerasSee) {
   const Scene scene = *load_scenario(*find_scenario("two_views"));

@@ -1,5 +1,5 @@
 dottrack_test(host_sim_scenarios_test
-  SOURCES placements_test.cpp scene_files_test.cpp scenario_file_test.cpp
+  SOURCES calibration_files_test.cpp placements_test.cpp scene_files_test.cpp scenario_file_test.cpp
   USES dottrack::host_sim_scenarios dottrack::config dottrack::test_support)
 dottrack_test(host_sim_scene_renderer_test
   SOURCES scene_renderer_test.cpp

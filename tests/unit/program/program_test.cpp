@@ -47,7 +47,9 @@ void expect_wrong_use(const std::string& arguments, const std::string& line) {
 
 TEST(Program, AnswersWrongUseWithOneLineAndStatus2) {
   const std::string commands =
-      "; expected one of replay, sim, acquisitions, experiments, camera, target, monitor, dbc, "
+      "; expected one of replay, sim, acquisitions, experiments, calibrate, camera, survey, "
+      "target, "
+      "monitor, dbc, "
       "command, "
       "busload";
   expect_wrong_use("", "no command" + commands);

@@ -99,17 +99,17 @@ TEST(ReceiverInterface, EveryNumberHasAWord) {
   EXPECT_EQ(verdicts.count("unknown"), 0U);
   EXPECT_STREQ(dottrack_state_text(DOTTRACK_TRACKING), "tracking");
   EXPECT_STREQ(dottrack_reason_text(14), "stopped");
-  EXPECT_STREQ(dottrack_degraded_text(12), "few_cameras");
-  EXPECT_STREQ(dottrack_health_text(6), "iris_fault");
+  EXPECT_STREQ(dottrack_degraded_text(14), "rig_disagrees");
+  EXPECT_STREQ(dottrack_health_text(7), "moved");
   EXPECT_STREQ(dottrack_result_text(5), "failed");
 }
 
 TEST(ReceiverInterface, NumbersWithoutMeaningAreUnknown) {
   EXPECT_STREQ(dottrack_state_text(2), "unknown");
   EXPECT_STREQ(dottrack_reason_text(255), "unknown");
-  EXPECT_STREQ(dottrack_degraded_text(13), "unknown");
+  EXPECT_STREQ(dottrack_degraded_text(15), "unknown");
   EXPECT_STREQ(dottrack_degraded_text(0xFFFFFFFFU), "unknown");
-  EXPECT_STREQ(dottrack_health_text(7), "unknown");
+  EXPECT_STREQ(dottrack_health_text(8), "unknown");
   EXPECT_STREQ(dottrack_result_text(6), "unknown");
 }
 

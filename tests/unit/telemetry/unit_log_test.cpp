@@ -57,6 +57,24 @@ TEST_F(UnitLogTest, TellsOfALockAndOfItsLossOnce) {
   EXPECT_THAT(told(), ElementsAre("4 lock 3 lost: too_few_dots; acquiring again"));
 }
 
+TEST_F(UnitLogTest, NamesTheCameraThatHasBeenMoved) {
+  record_.result.cameras[1].shift_px = {0.3F, 0.4F};
+  tick(3);
+  record_.result.cameras[1].moved = true;
+  tick(3);
+  EXPECT_THAT(told(), ElementsAre("4 camera south: has been moved, its dots are 0.50 pixels off; "
+                                  "left out until its model is repaired and the unit is started "
+                                  "again"));
+  EXPECT_THAT(log_.status(), HasSubstr(", south moved, "));
+  record_.result.cameras[1].moved = false;
+  tick(3);
+  EXPECT_THAT(told(), ElementsAre("6 camera south: counts again"));
+  record_.result.rig_disagrees = true;
+  tick(3);
+  EXPECT_THAT(told(), ElementsAre("4 more cameras contradict each other than can be left out: "
+                                  "check the target and the models"));
+}
+
 TEST_F(UnitLogTest, NamesTheCameraThatStaysAwayAndItsReturn) {
   record_.result.cameras[1].delivered = false;
   tick(UnitLog::kTicksAway + 5);

@@ -734,13 +734,13 @@ const char* dottrack_degraded_text(unsigned bit) {
   static const char* const words[] = {
       "camera_missing",   "camera_stale",       "camera_overflow", "iris_fault",   "dots_missing",
       "single_view_dots", "tick_missed",        "bus_trouble",     "message_lost", "record_lost",
-      "not_real_time",    "covariance_unknown", "few_cameras"};
+      "not_real_time",    "covariance_unknown", "few_cameras",     "camera_moved", "rig_disagrees"};
   return WORD_OF(words, bit);
 }
 
 const char* dottrack_health_text(uint8_t health) {
-  static const char* const words[] = {"absent", "used",     "unused",    "no_frame",
-                                      "stale",  "overflow", "iris_fault"};
+  static const char* const words[] = {"absent", "used",     "unused",     "no_frame",
+                                      "stale",  "overflow", "iris_fault", "moved"};
   return WORD_OF(words, health);
 }
 

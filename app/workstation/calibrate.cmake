@@ -1,0 +1,3 @@
+# What `dottrack calibrate` is made of, beside its command.
+add_subdirectory(calibrate)
+list(APPEND workstation_uses dottrack::workstation_calibrate)

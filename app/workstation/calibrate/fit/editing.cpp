@@ -1,0 +1,321 @@
+#include "app/workstation/calibrate/fit/editing.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "app/workstation/calibrate/fit/chi_square.h"
+
+namespace dottrack::calibrate {
+namespace {
+
+constexpr double kFalseViews = 0.005;  // expected number of good views left out
+constexpr double kFalseDots = 0.0005;  // ... and of good dots suspected
+constexpr double kHysteresis = 0.8;    // of the surprise, below which something comes back
+constexpr int kMostReturns = 2;        // of the same view
+constexpr double kLeastPart = 0.01;    // of a direction's variance, in which a residual tells a thing
+constexpr std::size_t kFewestViews = 6;  // that editing leaves a camera
+
+// r^T C^-1 r over the directions in which the residual is not explained away.
+template <int N>
+double squared_sigmas(const Judged<N>& judged) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> solver(judged.covariance);
+  double sum = 0.0;
+  for (int i = 0; i < N; ++i) {
+    const double variance = solver.eigenvalues()[i];
+    if (variance < kLeastPart) continue;
+    const double along = solver.eigenvectors().col(i).dot(judged.residual);
+    sum += along * along / variance;
+  }
+  return sum;
+}
+
+std::vector<std::size_t> kept_views_of_dots(const Adjustment& adjustment) {
+  std::vector<std::size_t> count(adjustment.dots.size(), 0);
+  for (const View& view : adjustment.views) count[view.dot] += view.kept ? 1 : 0;
+  return count;
+}
+
+std::vector<std::size_t> kept_views_of_cameras(const Adjustment& adjustment) {
+  std::vector<std::size_t> count(adjustment.cameras.size(), 0);
+  for (const View& view : adjustment.views) count[view.camera] += view.kept ? 1 : 0;
+  return count;
+}
+
+double limit(double false_alarms, std::size_t tests) {
+  return -std::log(false_alarms / static_cast<double>(std::max<std::size_t>(tests, 1)));
+}
+
+}  // namespace
+
+Surprises surprises(const Adjustment& adjustment, const Information& information) {
+  Surprises all;
+  for (const Judged<2>& view : information.views) {
+    all.views.push_back(view.known ? surprise2(squared_sigmas(view)) : 0.0);
+  }
+  const auto kept = kept_views_of_dots(adjustment);
+  for (std::size_t i = 0; i < information.surveys.size(); ++i) {
+    const bool told = information.surveys[i].known && kept[i] >= kLeastViewsOfDot;
+    all.surveys.push_back(told ? surprise3(squared_sigmas(information.surveys[i])) : 0.0);
+  }
+  return all;
+}
+
+Editor::Editor(const Adjustment& adjustment)
+    : returns_of_views_(adjustment.views.size(), 0),
+      returns_of_surveys_(adjustment.dots.size(), 0) {}
+
+bool Editor::bring_back(Adjustment& adjustment, const Surprises& all) {
+  bool changed = false;
+  const double most_view = kHysteresis * limit(kFalseViews, all.views.size());
+  for (std::size_t i = 0; i < all.views.size(); ++i) {
+    View& view = adjustment.views[i];
+    if (view.kept || all.views[i] > most_view || returns_of_views_[i] >= kMostReturns) continue;
+    view.kept = true;
+    ++returns_of_views_[i];
+    changed = true;
+  }
+  const double most_dot = kHysteresis * limit(kFalseDots, all.surveys.size());
+  for (std::size_t i = 0; i < all.surveys.size(); ++i) {
+    AdjustedDot& dot = adjustment.dots[i];
+    if (dot.trusted || all.surveys[i] > most_dot || returns_of_surveys_[i] >= kMostReturns) continue;
+    dot.trusted = true;
+    ++returns_of_surveys_[i];
+    changed = true;
+  }
+  return changed;
+}
+
+bool Editor::leave_out(Adjustment& adjustment, const Surprises& all) {
+  // The worst first; of equals the one that comes first.
+  std::vector<std::tuple<double, bool, std::size_t>> worst;
+  const double view_limit = limit(kFalseViews, all.views.size());
+  for (std::size_t i = 0; i < all.views.size(); ++i) {
+    if (adjustment.views[i].kept && all.views[i] > view_limit) {
+      worst.emplace_back(-all.views[i], false, i);
+    }
+  }
+  const double dot_limit = limit(kFalseDots, all.surveys.size());
+  for (std::size_t i = 0; i < all.surveys.size(); ++i) {
+    if (adjustment.dots[i].trusted && all.surveys[i] > dot_limit) {
+      worst.emplace_back(-all.surveys[i], true, i);
+    }
+  }
+  std::sort(worst.begin(), worst.end());
+  auto of_dot = kept_views_of_dots(adjustment);
+  auto of_camera = kept_views_of_cameras(adjustment);
+  std::vector<bool> camera_touched(adjustment.cameras.size(), false);
+  std::vector<bool> dot_touched(adjustment.dots.size(), false);
+  bool changed = false;
+  for (const auto& [minus, is_dot, i] : worst) {
+    if (is_dot) {
+      bool free = !dot_touched[i];
+      for (const View& v : adjustment.views) {
+        free = free && !(v.dot == i && v.kept && camera_touched[v.camera]);
+      }
+      if (!free) continue;
+      adjustment.dots[i].trusted = false;
+      dot_touched[i] = true;
+      for (const View& v : adjustment.views) {
+        if (v.dot == i && v.kept) camera_touched[v.camera] = true;
+      }
+      changed = true;
+      continue;
+    }
+    View& view = adjustment.views[i];
+    const bool needed = of_camera[view.camera] <= kFewestViews ||
+                        (!adjustment.dots[view.dot].trusted && of_dot[view.dot] <= kLeastViewsOfDot);
+    if (camera_touched[view.camera] || dot_touched[view.dot] || needed) continue;
+    view.kept = false;
+    camera_touched[view.camera] = true;
+    dot_touched[view.dot] = true;
+    changed = true;
+  }
+  return changed;
+}
+
+bool Editor::edit(Adjustment& adjustment, const Information& information) {
+  const Surprises all = surprises(adjustment, information);
+  const bool back = bring_back(adjustment, all);
+  return leave_out(adjustment, all) || back;
+}
+
+namespace {
+
+constexpr double kLeastImageSigma_px = 0.003;
+constexpr double kLeastSurveySigma = 1e-7;  // of the distance
+constexpr double kEnoughRedundancy = 20.0;
+constexpr double kBelief = 20.0;  // as many coordinates as a camera's noise is believed to be that of all
+
+struct Sums {
+  double square = 0.0;
+  double redundancy = 0.0;
+  std::vector<double> relative;  // squared sigmas, where it is done by medians
+
+  double factor2(bool robust, double median) const {
+    if (!robust) return redundancy > 0.0 ? square / redundancy : 1.0;
+    if (relative.empty()) return 1.0;
+    std::vector<double> sorted = relative;
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<long>(sorted.size() / 2),
+                     sorted.end());
+    return sorted[sorted.size() / 2] / median;
+  }
+};
+
+template <int N>
+void add(const Judged<N>& judged, Sums& sums) {
+  const double length = judged.residual.norm();
+  // As the fit itself weighs it.
+  const double weight = length > kHuberSigmas ? kHuberSigmas / length : 1.0;
+  sums.square += weight * length * length;
+  sums.redundancy += judged.redundancy();
+  sums.relative.push_back(squared_sigmas(judged));
+}
+
+// Coordinates that several cameras have in common beyond what a dot's place takes.
+double common_redundancy(const Adjustment& adjustment) {
+  double sum = 0.0;
+  for (const std::size_t views : kept_views_of_dots(adjustment)) {
+    if (views >= 2) sum += 2.0 * static_cast<double>(views) - 3.0;
+  }
+  double numbers = 0.0;
+  for (const AdjustedCamera& c : adjustment.cameras) numbers += count_free(c.camera.kind);
+  return sum - numbers;
+}
+
+double scale_by(double& scale, double factor2, double least) {
+  const double before = scale;
+  scale = std::max(scale * std::sqrt(std::max(factor2, 1e-6)), least);
+  return std::abs(std::log(scale / before));
+}
+
+double least_sigma_px(const Adjustment& adjustment) {
+  double least = 1e9;
+  for (const View& view : adjustment.views) least = std::min(least, view.sigma_px);
+  return least;
+}
+
+double least_survey_scale(const Adjustment& adjustment) {
+  double sigma = 1e9;
+  double distance = 1.0;
+  for (const AdjustedDot& dot : adjustment.dots) sigma = std::min(sigma, dot.sigma_m.minCoeff());
+  for (const AdjustedCamera& c : adjustment.cameras) distance = c.camera.frame.distance_m;
+  return kLeastSurveySigma * distance / sigma;
+}
+
+// How far the cameras' numbers of one sort are from what cameras ideally have is learnt from the
+// cameras themselves: where none is off by more than its noise, none is believed to be.
+struct Habit {
+  int first;
+  int count;
+  double least_sigma;
+};
+constexpr Habit kHabits[] = {{kAspect, 1, 5e-5}, {kSkew, 1, 5e-5}, {kAxis, 2, 5e-4}};
+constexpr double kHabitBelief = 1.0;  // numbers that are believed to be as off as assumed
+
+double learn_habit(Adjustment& adjustment, const Information& information, const Habit& habit) {
+  double square = kHabitBelief;
+  double redundancy = kHabitBelief;
+  for (std::size_t i = 0; i < adjustment.cameras.size(); ++i) {
+    const AdjustedCamera& c = adjustment.cameras[i];
+    for (int k = habit.first; k < habit.first + habit.count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      if (!is_free(c.camera.kind, k) || !(c.priors.sigma[at] > 0.0)) continue;
+      const double off = (c.camera.numbers[at] - c.priors.mean[at]) / c.priors.sigma[at];
+      square += off * off;
+      redundancy += 1.0 - information.cameras[i](k, k) / std::pow(c.priors.sigma[at], 2);
+    }
+  }
+  const double factor = std::sqrt(square / redundancy);
+  double change = 0.0;
+  for (AdjustedCamera& c : adjustment.cameras) {
+    for (int k = habit.first; k < habit.first + habit.count; ++k) {
+      double& sigma = c.priors.sigma[static_cast<std::size_t>(k)];
+      const double before = sigma;
+      if (!(sigma > habit.least_sigma)) continue;
+      sigma = std::clamp(sigma * factor, habit.least_sigma,
+                         c.priors.loosest[static_cast<std::size_t>(k)]);
+      change = std::max(change, std::abs(std::log(sigma / before)));
+    }
+  }
+  return change;
+}
+
+double learn_habits(Adjustment& adjustment, const Information& information) {
+  double change = 0.0;
+  for (const Habit& habit : kHabits) {
+    change = std::max(change, learn_habit(adjustment, information, habit));
+  }
+  return change;
+}
+
+}  // namespace
+
+double estimate_noise(Adjustment& adjustment, const Information& information,
+                      const NoiseOptions& options) {
+  if (!options.estimate) return 0.0;
+  std::vector<Sums> cameras(adjustment.cameras.size());
+  Sums image;
+  Sums survey;
+  for (std::size_t i = 0; i < adjustment.views.size(); ++i) {
+    if (!adjustment.views[i].kept || !information.views[i].known) continue;
+    add(information.views[i], cameras[adjustment.views[i].camera]);
+    add(information.views[i], image);
+  }
+  for (std::size_t i = 0; i < adjustment.dots.size(); ++i) {
+    if (adjustment.dots[i].trusted && information.surveys[i].known) {
+      add(information.surveys[i], survey);
+    }
+  }
+  const double least_image = kLeastImageSigma_px / least_sigma_px(adjustment);
+  const double least_survey = least_survey_scale(adjustment);
+  double change = 0.0;
+  if (common_redundancy(adjustment) < kEnoughRedundancy) {
+    // One cannot be told from the other: both are larger or smaller.
+    Sums both = image;
+    both.square += survey.square;
+    both.redundancy += survey.redundancy;
+    const double factor2 = both.factor2(options.robust, kMedian2);
+    for (AdjustedCamera& c : adjustment.cameras) {
+      change = std::max(change, scale_by(c.image_scale, factor2, least_image));
+    }
+    return std::max(change, scale_by(adjustment.survey_scale, factor2, least_survey));
+  }
+  const double common2 = image.factor2(options.robust, kMedian2);
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const double own2 = cameras[i].factor2(options.robust, kMedian2);
+    const double weight = options.for_each_camera ? cameras[i].redundancy : 0.0;
+    const double factor2 = (weight * own2 + kBelief * common2) / (weight + kBelief);
+    change =
+        std::max(change, scale_by(adjustment.cameras[i].image_scale, factor2, least_image));
+  }
+  return std::max(change, scale_by(adjustment.survey_scale,
+                                   survey.factor2(options.robust, kMedian3), least_survey));
+}
+
+std::optional<Information> adjust_and_edit(Adjustment& adjustment, bool estimate) {
+  constexpr int kMostRounds = 60;
+  constexpr double kSameNoise = 0.01;
+  Editor editor(adjustment);
+  std::optional<Information> information;
+  bool robust = true;
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (!solve(adjustment, Loss::huber)) return std::nullopt;
+    information = inform(adjustment);
+    if (!information) return std::nullopt;
+    double change = estimate_noise(adjustment, *information, {estimate, robust, !robust});
+    if (!robust) change = std::max(change, learn_habits(adjustment, *information));
+    // Settle the noise first: all tests are by it.
+    const bool settled = change < (robust ? 0.05 : kSameNoise);
+    const bool edited = change < 0.5 && editor.edit(adjustment, *information);
+    if (settled && !edited) {
+      if (!robust) return information;
+      robust = false;
+    }
+  }
+  if (!solve(adjustment, Loss::huber)) return std::nullopt;
+  return inform(adjustment);
+}
+
+}  // namespace dottrack::calibrate

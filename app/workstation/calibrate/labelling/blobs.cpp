@@ -1,0 +1,159 @@
+#include "app/workstation/calibrate/labelling/blobs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "app/core/image/dot_centre.h"
+#include "app/core/image/identify.h"
+
+namespace dottrack::calibrate {
+namespace {
+
+constexpr int kSmallBackground_px = 21;
+constexpr double kSmallDot_px = 12.0;   // that the small background suits
+constexpr double kDotsPerSurround = 4;  // width of a background to that of its dots
+constexpr int kTile_px = 256;
+
+struct Scale {
+  int background_px;
+  double min_px;
+  double max_px;
+};
+
+std::vector<Scale> scales_of(const BlobOptions& options) {
+  if (options.background_px) {
+    return {{*options.background_px, options.min_dot_px, options.max_dot_px}};
+  }
+  std::vector<Scale> scales;
+  if (options.min_dot_px < kSmallDot_px) {
+    scales.push_back(
+        {kSmallBackground_px, options.min_dot_px, std::min(options.max_dot_px, kSmallDot_px)});
+  }
+  if (options.max_dot_px > kSmallDot_px) {
+    const int wide = static_cast<int>(kDotsPerSurround * options.max_dot_px) | 1;
+    scales.push_back(
+        {std::min(wide, 255), std::max(0.7 * kSmallDot_px, options.min_dot_px), options.max_dot_px});
+  }
+  return scales;
+}
+
+image::RegionGate gate_of(const Scale& scale) {
+  return {.semi_major_min_px = 0.5 * scale.min_px,
+          .semi_major_max_px = 0.5 * scale.max_px,
+          .min_axis_ratio = 0.3,
+          .min_fill = 0.75,
+          .min_core_contrast_dn = 0.0,
+          .max_box_misfit_px = 1.5,
+          .max_box_misfit_part = 0.2,
+          .min_area_px = 5};
+}
+
+// Of the grey values: from the differences of neighbours that are not on an edge.
+double noise_dn(const ImageView& image) {
+  std::array<std::size_t, 256> counts{};
+  std::size_t total = 0;
+  for (int y = 0; y + 1 < image.height_px; y += 3) {
+    const std::uint8_t* const row = image.row(y);
+    const std::uint8_t* const below = image.row(y + 1);
+    for (int x = 0; x + 1 < image.width_px; x += 2) {
+      const int mixed = row[x] - row[x + 1] - below[x] + below[x + 1];
+      ++counts[static_cast<std::size_t>(std::min(std::abs(mixed), 255))];
+      ++total;
+    }
+  }
+  std::size_t seen = 0;
+  for (std::size_t dn = 0; dn < counts.size(); ++dn) {
+    if (counts[dn] > 0 && 2 * (seen + counts[dn]) >= total) {
+      const double share = (0.5 * static_cast<double>(total) - static_cast<double>(seen)) /
+                           static_cast<double>(counts[dn]);
+      const double median = dn == 0 ? share * 0.5 : static_cast<double>(dn) - 0.5 + share;
+      return std::max(median / (0.6745 * 2.0), 0.3);
+    }
+    seen += counts[dn];
+  }
+  return 1.0;
+}
+
+// Twice the bound on what can be known of the centre of a disc of this size and contrast.
+double centre_sigma_px(double noise, double contrast_dn, double diameter_px) {
+  constexpr double kFloor_px = 0.02;
+  constexpr double kBlur_px = 0.85;
+  const double bound = noise / std::max(contrast_dn, 1.0) *
+                       std::sqrt(4.0 * std::sqrt(std::numbers::pi) * kBlur_px /
+                                 (std::numbers::pi * std::max(diameter_px, 2.0)));
+  return std::max(2.0 * bound, kFloor_px);
+}
+
+class Finder {
+ public:
+  Finder(const ImageView& image, const BlobOptions& options)
+      : image_(image), options_(options), noise_dn_(noise_dn(image)) {}
+
+  void search(const Scale& scale) {
+    const int margin = 2 * static_cast<int>(scale.max_px) + 2;
+    for (int y = 0; y < image_.height_px; y += kTile_px) {
+      for (int x = 0; x < image_.width_px; x += kTile_px) search_tile(scale, x, y, margin);
+    }
+  }
+
+  std::vector<Blob> take() { return std::move(blobs_); }
+
+ private:
+  void search_tile(const Scale& scale, int x, int y, int margin) {
+    const image::Band band{.min_contrast_dn = options_.min_contrast_dn,
+                           .background_px = scale.background_px,
+                           .polarity = options_.polarity};
+    const image::Window window{x - margin, y - margin, x + kTile_px - 1 + margin,
+                               y + kTile_px - 1 + margin};
+    identifier_.identify(image_, window, band, gate_of(scale), *regions_);
+    for (const image::Region& region : *regions_) {
+      const bool here = region.centroid_px.x() >= x - 0.5 && region.centroid_px.y() >= y - 0.5 &&
+                        region.centroid_px.x() < x + kTile_px - 0.5 &&
+                        region.centroid_px.y() < y + kTile_px - 0.5;
+      if (here && !region.touches_border) add(region);
+    }
+  }
+
+  // A dot that both backgrounds show is the larger of the two: what cuts it short is too narrow.
+  void add(const image::Region& region) {
+    const Blob blob = measured(region);
+    for (Blob& other : blobs_) {
+      const double reach = std::max(other.semi_major_px, blob.semi_major_px);
+      if ((other.pixel - blob.pixel).squaredNorm() > reach * reach) continue;
+      if (blob.semi_minor_px > 1.15 * other.semi_minor_px) other = blob;
+      return;
+    }
+    blobs_.push_back(blob);
+  }
+
+  Blob measured(const image::Region& region) const {
+    Blob blob;
+    blob.pixel = image::dot_centre(image_, region);
+    blob.semi_major_px = region.semi_major_px;
+    blob.semi_minor_px = region.semi_minor_px;
+    blob.angle_rad = region.angle_rad;
+    blob.contrast_dn = region.core_contrast_dn + options_.min_contrast_dn;
+    blob.sigma_px = centre_sigma_px(noise_dn_, blob.contrast_dn,
+                                    region.semi_major_px + region.semi_minor_px);
+    return blob;
+  }
+
+  const ImageView& image_;
+  const BlobOptions& options_;
+  double noise_dn_;
+  image::Identifier identifier_;
+  std::unique_ptr<image::Regions> regions_ = std::make_unique<image::Regions>();
+  std::vector<Blob> blobs_;
+};
+
+}  // namespace
+
+std::vector<Blob> find_blobs(const ImageView& image, const BlobOptions& options) {
+  Finder finder(image, options);
+  for (const Scale& scale : scales_of(options)) finder.search(scale);
+  return finder.take();
+}
+
+}  // namespace dottrack::calibrate
