@@ -42,7 +42,7 @@ NumberedCamera any_camera(const LensKind& kind, Source& random) {
   camera.frame.distance_m = 5.0;
   camera.frame.focal_px = 500.0;
   camera.frame.middle_px = {319.5, 239.5};
-  constexpr Numbers kSpread = {0.1,  0.1,  0.1, 0.1,  0.1,  0.1, 0.1,  0.05, 0.05,
+  constexpr Numbers kSpread = {0.1,  0.1,  0.1, 0.1,  0.1,  0.1,  0.1,  0.05, 0.05,
                                0.05, 0.01, 0.1, 0.05, 0.05, 0.02, 0.01, 0.01};
   for (int i = 0; i < kNumbers; ++i) {
     const auto k = static_cast<std::size_t>(i);

@@ -52,8 +52,9 @@ geometry::CameraModel camera(std::size_t i, const HallOptions& options, Random& 
                         static_cast<double>(options.cameras);
   const Vector3d from(0.48 * kLength_m * std::cos(around), 0.48 * kWidth_m * std::sin(around),
                       kHeight_m + random.uniform(-0.2, 0.2));
-  const Vector3d at = options.extent * Vector3d(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
-                                                random.uniform(0.0, 0.6));
+  const Vector3d at =
+      options.extent *
+      Vector3d(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(0.0, 0.6));
   const Vector3d a = (at - from).normalized();
   const Vector3d right = a.cross(Vector3d::UnitZ()).normalized();
   const double focal = options.focal_px * random.uniform(0.98, 1.02);
@@ -61,8 +62,8 @@ geometry::CameraModel camera(std::size_t i, const HallOptions& options, Random& 
   const double vc = 0.5 * (kHallRows - 1) + random.uniform(-6.0, 6.0);
   const Vector3d down = a.cross(right);
   const double vs = focal * (1.0 + options.aspect * random.uniform(-1.0, 1.0));
-  const Vector3d o = a + options.axis * (random.uniform(-1.0, 1.0) * right +
-                                         random.uniform(-1.0, 1.0) * down);
+  const Vector3d o =
+      a + options.axis * (random.uniform(-1.0, 1.0) * right + random.uniform(-1.0, 1.0) * down);
   return geometry::Cahvor{from,
                           a,
                           focal * right + hc * a,

@@ -1,5 +1,6 @@
 #pragma once
-// A hall with cameras under its ceiling and surveyed dots on its floor, walls and boxes, as numbers.
+// A hall with cameras under its ceiling and surveyed dots on its floor, walls and boxes, as
+// numbers.
 
 #include <Eigen/Core>
 #include <cstddef>
