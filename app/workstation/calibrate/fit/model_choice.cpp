@@ -23,6 +23,7 @@ constexpr double kCutSigmas2 = 16.0;         // a view that is further off count
 constexpr double kCoordinatesANumber = 1.5;  // fewest, of what a model is fitted to
 constexpr double kWithinNoise = 0.5;         // standard errors that a simpler model may be worse by
 constexpr double kPupilGain = 0.93;  // of the residuals of a camera alone, to try a moving pupil
+constexpr double kPupilErrors = 3.0;  // standard errors by which it must be better
 constexpr std::size_t kFolds = 5;
 
 bool enough(const LensKind& kind, std::size_t views) {
@@ -275,9 +276,14 @@ class Chooser {
       for (const double s : foretold_[k][camera].sigmas2) sum += std::min(s / unit, kCutSigmas2);
       return sum;
     };
-    const std::size_t best =
-        *std::min_element(levels.begin(), levels.end(),
-                          [&](std::size_t a, std::size_t b) { return loss(a) < loss(b); });
+    std::size_t best = levels.front();
+    for (const std::size_t k : levels) {
+      if (loss(k) >= loss(best)) continue;
+      // A moving pupil explains many a thing that is none.
+      const bool pupil = kinds_[k].form == LensForm::pupil && kinds_[best].form != LensForm::pupil;
+      const Comparison gain = compare(foretold_[best][camera], foretold_[k][camera], unit);
+      if (!pupil || gain.mean > kPupilErrors * gain.error) best = k;
+    }
     Choice choice;
     bool chosen = false;
     for (const std::size_t k : levels) {
@@ -312,13 +318,12 @@ class Chooser {
 std::vector<LensKind> candidates(ModelKind kind) {
   const LensKind pinhole{LensForm::pinhole, false, false, 1.0};
   const LensKind one{LensForm::radial, false, false, 1.0};
-  const LensKind two{LensForm::radial, false, true, 1.0};
   const LensKind full{LensForm::radial, true, true, 1.0};
   const LensKind perspective{LensForm::pupil, true, true, 1.0};
   const LensKind fish_eye{LensForm::pupil, true, true, 0.0};
   switch (kind) {
     case ModelKind::automatic:
-      return {pinhole, one, two, full, perspective, fish_eye};
+      return {pinhole, one, full, perspective, fish_eye};
     case ModelKind::cahv:
       return {pinhole};
     case ModelKind::cahv_radial:
