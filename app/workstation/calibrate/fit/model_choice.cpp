@@ -22,8 +22,10 @@ using Eigen::Vector2d;
 constexpr double kCutSigmas2 = 16.0;         // a view that is further off counts as this far
 constexpr double kCoordinatesANumber = 1.5;  // fewest, of what a model is fitted to
 constexpr double kWithinNoise = 0.5;         // standard errors that a simpler model may be worse by
-constexpr double kPupilGain = 0.93;  // of the residuals of a camera alone, to try a moving pupil
-constexpr double kPupilErrors = 3.0;  // standard errors by which it must be better
+constexpr double kPupilGain = 0.93;     // of the residuals of a camera alone, to try a moving pupil
+constexpr double kPupilErrors = 3.0;    // standard errors by which it must be better
+constexpr double kAlike = 1.5;          // of focal lengths
+constexpr double kContradiction = 1.5;  // standard errors by which a camera itself disagrees
 constexpr std::size_t kFolds = 5;
 
 bool enough(const LensKind& kind, std::size_t views) {
@@ -48,13 +50,13 @@ struct Comparison {
   double error = 0.0;
 };
 
-Comparison compare(const Foretelling& a, const Foretelling& b, double unit) {
+Comparison compare(const Foretelling& a, const Foretelling& b) {
   const auto n = static_cast<double>(a.sigmas2.size());
   double sum = 0.0;
   double square = 0.0;
   for (std::size_t i = 0; i < a.sigmas2.size(); ++i) {
     const double difference =
-        std::min(a.sigmas2[i] / unit, kCutSigmas2) - std::min(b.sigmas2[i] / unit, kCutSigmas2);
+        std::min(a.sigmas2[i], kCutSigmas2) - std::min(b.sigmas2[i], kCutSigmas2);
     sum += difference;
     square += difference * difference;
   }
@@ -259,48 +261,93 @@ class Chooser {
     }
   }
 
-  Choice best_of(std::size_t camera) const {
+  // Levels that mean something for a camera, and the scale of its squared sigmas.
+  struct Standing {
     std::vector<std::size_t> levels;
     double unit = std::numeric_limits<double>::infinity();
+  };
+
+  Standing standing(std::size_t camera) const {
+    Standing out;
     for (std::size_t k = 0; k < kinds_.size(); ++k) {
       const Foretelling& f = foretold_[k][camera];
       if (richest(camera, k) != k || f.sigmas2.empty()) continue;
       const double middle = median(f.sigmas2);
       if (!std::isfinite(middle)) continue;
-      unit = std::min(unit, middle / kMedian2);
-      levels.push_back(k);
+      out.unit = std::min(out.unit, middle / kMedian2);
+      out.levels.push_back(k);
     }
-    if (levels.empty()) return {camera_of(camera, *simplest(camera)), {}};
-    const auto loss = [&](std::size_t k) {
-      double sum = 0.0;
-      for (const double s : foretold_[k][camera].sigmas2) sum += std::min(s / unit, kCutSigmas2);
-      return sum;
+    return out;
+  }
+
+  // Lenses of one make are judged together: their fields of view are nearly the same.
+  bool alike(std::size_t a, std::size_t b) const {
+    const auto part = [&](std::size_t i) {
+      const ImageExtent extent = setup_.cameras[i].extent;
+      const NumberedCamera& camera = alone_[i][*simplest(i)]->camera;
+      return camera.frame.focal_px * std::exp(camera.numbers[kScale]) /
+             std::max(extent.width_px, extent.height_px);
     };
-    std::size_t best = levels.front();
-    for (const std::size_t k : levels) {
-      if (loss(k) >= loss(best)) continue;
-      // A moving pupil explains many a thing that is none.
-      const bool pupil = kinds_[k].form == LensForm::pupil && kinds_[best].form != LensForm::pupil;
-      const Comparison gain = compare(foretold_[best][camera], foretold_[k][camera], unit);
-      if (!pupil || gain.mean > kPupilErrors * gain.error) best = k;
+    return std::abs(std::log(part(a) / part(b))) < std::log(kAlike);
+  }
+
+  Foretelling of_alike(std::size_t level, std::size_t camera,
+                       std::span<const Standing> standings) const {
+    Foretelling all;
+    for (std::size_t i = 0; i < alone_.size(); ++i) {
+      if (!alike(camera, i) || standings[i].levels.empty()) continue;
+      for (const double s : foretold_[level][i].sigmas2) {
+        all.sigmas2.push_back(s / standings[i].unit);
+      }
     }
-    Choice choice;
-    bool chosen = false;
-    for (const std::size_t k : levels) {
-      const Foretelling& f = foretold_[k][camera];
-      const Comparison c = compare(f, foretold_[best][camera], unit);
-      const bool take = !chosen && c.mean <= kWithinNoise * c.error;
-      choice.tried.push_back({kinds_[k], rms_px(f, unit), take});
-      if (!take) continue;
-      choice.camera = camera_of(camera, k);
-      chosen = true;
+    return all;
+  }
+
+  // The simplest that is as good as the best, within the noise.
+  std::size_t simplest_good(std::span<const std::size_t> levels,
+                            const std::function<Foretelling(std::size_t)>& of) const {
+    std::vector<Foretelling> all;
+    for (const std::size_t k : levels) all.push_back(of(k));
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < all.size(); ++i) {
+      const Comparison gain = compare(all[best], all[i]);
+      // A moving pupil explains many a thing that is none.
+      const bool pupil =
+          kinds_[levels[i]].form == LensForm::pupil && kinds_[levels[best]].form != LensForm::pupil;
+      if (gain.mean > (pupil ? kPupilErrors * gain.error : 0.0)) best = i;
+    }
+    for (std::size_t i = 0; i < best; ++i) {
+      const Comparison loss = compare(all[i], all[best]);
+      if (loss.mean <= kWithinNoise * loss.error) return levels[i];
+    }
+    return levels[best];
+  }
+
+  Choice best_of(std::size_t camera, std::span<const Standing> standings) const {
+    const Standing& own = standings[camera];
+    if (own.levels.empty()) return {camera_of(camera, *simplest(camera)), {}};
+    const auto of_own = [&](std::size_t k) {
+      Foretelling f = foretold_[k][camera];
+      for (double& s : f.sigmas2) s /= own.unit;
+      return f;
+    };
+    std::size_t taken =
+        simplest_good(own.levels, [&](std::size_t k) { return of_alike(k, camera, standings); });
+    const std::size_t alone = simplest_good(own.levels, of_own);
+    const Comparison loss = compare(of_own(taken), of_own(alone));
+    if (loss.mean > kContradiction * loss.error) taken = alone;
+    Choice choice{camera_of(camera, taken), {}};
+    for (const std::size_t k : own.levels) {
+      choice.tried.push_back({kinds_[k], rms_px(foretold_[k][camera], own.unit), k == taken});
     }
     return choice;
   }
 
   std::vector<Choice> best_of_each() const {
     std::vector<Choice> out;
-    for (std::size_t i = 0; i < alone_.size(); ++i) out.push_back(best_of(i));
+    std::vector<Standing> standings;
+    for (std::size_t i = 0; i < alone_.size(); ++i) standings.push_back(standing(i));
+    for (std::size_t i = 0; i < alone_.size(); ++i) out.push_back(best_of(i, standings));
     return out;
   }
 
