@@ -54,7 +54,7 @@ Survey scaled(std::span<const SurveyedDot> dots, double factor) {
   Survey survey(dots.begin(), dots.end());
   for (SurveyedDot& dot : survey) {
     dot.position_m *= factor;
-    dot.diameter_m *= factor;
+    dot.diameter_m = 0.0;  // may be in another unit again
   }
   return survey;
 }
