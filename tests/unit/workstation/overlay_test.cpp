@@ -81,7 +81,10 @@ TEST_F(OverlayTest, EveryRegionConsideredHasABox) {
 
 TEST_F(OverlayTest, ADotThatServedHasItsEllipse) {
   core::DotView& view = result_.dots[0].views[kCamera];
-  view = {true, {350.0F, 20.0F}, 9.0F, 5.0F, 0.0F, 0.0F};
+  view.used = true;
+  view.pixel = {350.0F, 20.0F};
+  view.semi_major_px = 9.0F;
+  view.semi_minor_px = 5.0F;
   const Canvas canvas = draw();
   EXPECT_TRUE(near(canvas, {359, 20}, kOverlayColours.used, 1));
   EXPECT_TRUE(near(canvas, {350, 15}, kOverlayColours.used, 1));
