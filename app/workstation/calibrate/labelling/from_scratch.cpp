@@ -9,10 +9,10 @@
 namespace dottrack::calibrate {
 namespace {
 
-constexpr std::size_t kSightingsAKind = 30;
+constexpr std::size_t kSightingsAKind = 60;
 constexpr std::size_t kKinds = 400;
 constexpr std::size_t kMostGrown = 600;
-constexpr std::size_t kGrownAfterFirst = 150;  // a finer grid may look like a part of itself
+constexpr std::size_t kGrownAfterFirst = 300;  // a finer grid may look like a part of itself
 constexpr double kLikeMargin = 12.0;
 constexpr double kWorthwhile = 20.0;  // log odds
 
