@@ -35,6 +35,10 @@ struct PoseEvidence {
     information += other.information;
     score += other.score;
   }
+  void remove(const PoseEvidence& other) {
+    information -= other.information;
+    score -= other.score;
+  }
 };
 
 struct DotResidual {
@@ -119,13 +123,13 @@ std::array<ShiftEvidence, kMaxCameras> shift_evidence(const core::Rig& rig,
       }
     }
   }
+  PoseEvidence all;
+  for (const CameraResiduals& camera : cameras) all.add(camera.used);
   std::array<ShiftEvidence, kMaxCameras> result;
   for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera) {
     if (cameras[camera].dots.size() < kFewestDots) continue;
-    PoseEvidence others;
-    for (std::size_t other = 0; other < rig.cameras.size(); ++other) {
-      if (other != camera) others.add(cameras[other].used);
-    }
+    PoseEvidence others = all;
+    others.remove(cameras[camera].used);
     result[camera] = evidence_of(cameras[camera], others);
   }
   return result;

@@ -44,7 +44,7 @@ class CsvFile : public testing::Test {
 
 TEST_F(CsvFile, EveryColumnHasANameOfItsOwn) {
   EXPECT_EQ(std::set<std::string>(names_.begin(), names_.end()).size(), names_.size());
-  EXPECT_EQ(names_.size(), 9U + 8 + 21 + 3 * (5 + 2 * 3) + 2 * 10 + 15 + 7);
+  EXPECT_EQ(names_.size(), 9U + 8 + 21 + 3 * (5 + 2 * 3) + 2 * 13 + 15 + 8);
 }
 
 TEST_F(CsvFile, ATickWithAPoseHasItsNumbers) {
@@ -88,6 +88,9 @@ TEST_F(CsvFile, CamerasAndAcquisitionAreThere) {
   EXPECT_EQ(row.at("left_sightings"), "5");
   EXPECT_EQ(row.at("right_delivered"), "0");
   EXPECT_EQ(row.at("right_overflow"), "1");
+  EXPECT_EQ(row.at("left_moved"), "0");
+  EXPECT_EQ(row.at("left_shift_x_px"), "0");
+  EXPECT_EQ(row.at("rig_disagrees"), "0");
   EXPECT_EQ(row.at("pairs_tested"), "1234");
   EXPECT_EQ(row.at("acquisition_ticks"), "2");
   EXPECT_EQ(row.at("min_views"), "3");

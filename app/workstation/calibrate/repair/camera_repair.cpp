@@ -39,6 +39,10 @@ constexpr double kWorstTurnSigma_rad = 0.005;
 constexpr double kWorstShiftSigma_m = 0.05;
 // Neighbours in time share what is odd about their pictures, and the error of the poses.
 constexpr std::size_t kTicksTogether = 10;
+// What a knock does, standard deviations: views in a small part of a picture hardly tell a turn
+// from a shift.
+constexpr double kKnockTurn_rad = 0.035;
+constexpr double kKnockShift_m = 0.01;
 
 struct View {
   Vector3d point_m;
@@ -180,7 +184,7 @@ class Fit {
   // Of turn and shift: by how the scores scatter in groups of ticks, and never less than white
   // noise of the residuals' size would make it.
   Matrix6d pose_covariance() const {
-    Matrix6d information = Matrix6d::Zero();
+    Matrix6d information = prior_information().asDiagonal();
     Matrix6d scatter = Matrix6d::Zero();
     Vector6d group = Vector6d::Zero();
     double weighted2 = 0.0;
@@ -212,7 +216,7 @@ class Fit {
     const MatrixXd by_pose = vectors_by_pose(model_);
     MatrixXd result = by_pose * of_pose * by_pose.transpose();
     if (!before || before->rows() != by_pose.rows()) return result;
-    Matrix6d information = Matrix6d::Zero();
+    Matrix6d information = prior_information().asDiagonal();
     MatrixXd cross = MatrixXd::Zero(6, by_pose.rows());
     for (const View& view : views_) {
       const Linear at = linearise(view);
@@ -265,8 +269,11 @@ class Fit {
   // Huber's cost; the equations: information * step = score.
   double normal_equations(Matrix6d& information, Vector6d& score) const {
     information.setZero();
-    score.setZero();
-    double cost = 0.0;
+    const Vector6d prior = prior_information();
+    const Vector6d knock = knock_so_far();
+    information.diagonal() = prior;
+    score = -prior.cwiseProduct(knock);
+    double cost = prior.dot(knock.cwiseAbs2()) / (2.0 * sigma_px_ * sigma_px_);
     for (const View& view : views_) {
       const Linear at = linearise(view);
       information += at.pull() * at.by_pose;
@@ -276,6 +283,22 @@ class Fit {
       cost += off > kHuber ? kHuber * (2.0 * off - kHuber) : off * off;
     }
     return cost;
+  }
+
+  // In units of a view's coordinate; of the views' as many count as there are independent ones.
+  Vector6d prior_information() const {
+    const double variance = sigma_px_ * sigma_px_ * static_cast<double>(kTicksTogether);
+    Vector6d information;
+    information.head<3>().setConstant(variance / (kKnockTurn_rad * kKnockTurn_rad));
+    information.tail<3>().setConstant(variance / (kKnockShift_m * kKnockShift_m));
+    return information;
+  }
+
+  Vector6d knock_so_far() const {
+    const Eigen::AngleAxisd turn(rotation_between(start_, model_));
+    Vector6d knock;
+    knock << turn.angle() * turn.axis(), geometry::centre(model_) - geometry::centre(start_);
+    return knock;
   }
 
   double robust_sigma() const {
