@@ -16,6 +16,10 @@ namespace {
 // among the finalists of many views first, then of fewer.
 constexpr std::array<int, 4> kViewLayers = {6, 4, 3, 2};
 
+// Three dots of a larger target are looked for when all else is done, and only among finalists of
+// so many layers: three that two cameras each see are mostly chance.
+constexpr std::size_t kLayersOfThree = 3;
+
 // A later candidate takes the place of an earlier one, of more dots or more views, only when it is
 // clearly less probable to be false.
 constexpr double kClearlyLess = 0.5;
@@ -94,10 +98,6 @@ std::size_t Acquisition::sightings(std::size_t camera) const {
   return memory_->views[camera].sightings.size();
 }
 
-std::size_t Acquisition::fewest_dots() const {
-  return std::min(shape_.dots, core::kMinPartialDots);
-}
-
 void Acquisition::start(std::span<const image::Regions* const> regions) {
   const std::span<CameraView> views(memory_->views.data(), rig_->cameras.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -110,6 +110,7 @@ void Acquisition::start(std::span<const image::Regions* const> regions) {
   has_candidate_ = false;
   memory_->search.start(views, core::largest_dot_diameter_m(rig_->target));
   layer_ = 0;
+  fewest_dots_ = std::min(shape_.dots, core::kMinPartialDots);
   stage_ = seeing >= 2 ? Stage::finalists : Stage::ended;
 }
 
@@ -156,7 +157,8 @@ void Acquisition::note(core::Reason reason) {
 bool Acquisition::find_finalists(WorkBudget& budget) {
   core::AcquisitionCounts& counts = memory_->result.counts;
   if (!memory_->search.advance(kViewLayers[layer_], budget, counts)) return false;
-  dots_ = shape_.dots;
+  const bool last_resort = fewest_dots_ < std::min(shape_.dots, core::kMinPartialDots);
+  dots_ = last_resort ? fewest_dots_ : shape_.dots;
   begin_selection();
   return true;
 }
@@ -168,7 +170,7 @@ void Acquisition::begin_selection() {
   for (std::size_t i = 0; i < m.search.finalists().size(); ++i) {
     if (m.search.finalists()[i].cameras.size() >= kViewLayers[layer_]) m.add_candidate(i);
   }
-  while (dots_ > m.candidates.size() && dots_ > fewest_dots()) --dots_;
+  while (dots_ > m.candidates.size() && dots_ > fewest_dots_) --dots_;
   if (dots_ > m.candidates.size()) {
     note(core::Reason::too_few_finalists);
     go_on_with_fewer();
@@ -202,13 +204,27 @@ bool Acquisition::select(WorkBudget& budget) {
 
 // Other parts of the target among the same finalists, then finalists of fewer views.
 void Acquisition::go_on_with_fewer() {
-  if (dots_ > fewest_dots() && memory_->candidates.size() >= fewest_dots()) {
+  if (dots_ > fewest_dots_ && memory_->candidates.size() >= fewest_dots_) {
     --dots_;
     begin_selection();
     return;
   }
   ++layer_;
-  stage_ = layer_ < kViewLayers.size() ? Stage::finalists : Stage::ended;
+  const bool last_resort = fewest_dots_ < std::min(shape_.dots, core::kMinPartialDots);
+  if (layer_ < (last_resort ? kLayersOfThree : kViewLayers.size())) {
+    stage_ = Stage::finalists;
+  } else {
+    begin_last_resort(last_resort);
+  }
+}
+
+// Three dots of a larger target, when there is nothing better.
+void Acquisition::begin_last_resort(bool over) {
+  stage_ = Stage::ended;
+  if (over || shape_.dots <= core::kMinDots) return;
+  fewest_dots_ = core::kMinDots;
+  layer_ = 0;
+  stage_ = Stage::finalists;
 }
 
 // The score up to which another explanation is worth weighing: beyond it, it is less probable than

@@ -76,6 +76,7 @@ class Acquisition {
   void begin_other_labels();
   void begin_other_places();
   void go_on_with_fewer();
+  void begin_last_resort(bool over);
   void judge();
 
   void note(core::Reason reason);
@@ -84,14 +85,14 @@ class Acquisition {
   core::Reason make_lock(const Selection& selection, WorkBudget& budget, CandidateLock& lock) const;
   double ellipse_evidence(const Selection& selection, const core::Pose& pose) const;
   double rival_score() const;
-  std::size_t fewest_dots() const;
 
   const core::Rig* rig_;
   std::span<const geometry::Optics> optics_;
   TargetShape shape_;
   Stage stage_ = Stage::ended;
   bool has_candidate_ = false;
-  std::size_t layer_ = 0;  // of kViewLayers
+  std::size_t layer_ = 0;        // of kViewLayers
+  std::size_t fewest_dots_ = 0;  // that a selection may be asked to match now
   std::size_t dots_ = 0;   // that the present selection is to match
   std::unique_ptr<Memory> memory_;
 };
