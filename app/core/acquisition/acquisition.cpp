@@ -16,9 +16,9 @@ namespace {
 // among the finalists of many views first, then of fewer.
 constexpr std::array<int, 4> kViewLayers = {6, 4, 3, 2};
 
-// Three dots of a larger target are looked for when all else is done, and only among finalists of
-// so many layers: three that two cameras each see are mostly chance.
-constexpr std::size_t kLayersOfThree = 3;
+// Three dots of a larger target are the last resort, and only among finalists of the first so many
+// layers: of three that two cameras each see, most are chance.
+constexpr std::size_t kLayersOfLastResort = 3;
 
 // A later candidate takes the place of an earlier one, of more dots or more views, only when it is
 // clearly less probable to be false.
@@ -98,6 +98,14 @@ std::size_t Acquisition::sightings(std::size_t camera) const {
   return memory_->views[camera].sightings.size();
 }
 
+std::size_t Acquisition::most_dots() const {
+  return last_resort_ ? core::kMinDots : shape_.dots;
+}
+
+std::size_t Acquisition::fewest_dots() const {
+  return std::min(shape_.dots, last_resort_ ? core::kMinDots : core::kMinPartialDots);
+}
+
 void Acquisition::start(std::span<const image::Regions* const> regions) {
   const std::span<CameraView> views(memory_->views.data(), rig_->cameras.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -110,7 +118,7 @@ void Acquisition::start(std::span<const image::Regions* const> regions) {
   has_candidate_ = false;
   memory_->search.start(views, core::largest_dot_diameter_m(rig_->target));
   layer_ = 0;
-  fewest_dots_ = std::min(shape_.dots, core::kMinPartialDots);
+  last_resort_ = false;
   stage_ = seeing >= 2 ? Stage::finalists : Stage::ended;
 }
 
@@ -157,8 +165,7 @@ void Acquisition::note(core::Reason reason) {
 bool Acquisition::find_finalists(WorkBudget& budget) {
   core::AcquisitionCounts& counts = memory_->result.counts;
   if (!memory_->search.advance(kViewLayers[layer_], budget, counts)) return false;
-  const bool last_resort = fewest_dots_ < std::min(shape_.dots, core::kMinPartialDots);
-  dots_ = last_resort ? fewest_dots_ : shape_.dots;
+  dots_ = most_dots();
   begin_selection();
   return true;
 }
@@ -170,7 +177,7 @@ void Acquisition::begin_selection() {
   for (std::size_t i = 0; i < m.search.finalists().size(); ++i) {
     if (m.search.finalists()[i].cameras.size() >= kViewLayers[layer_]) m.add_candidate(i);
   }
-  while (dots_ > m.candidates.size() && dots_ > fewest_dots_) --dots_;
+  while (dots_ > m.candidates.size() && dots_ > fewest_dots()) --dots_;
   if (dots_ > m.candidates.size()) {
     note(core::Reason::too_few_finalists);
     go_on_with_fewer();
@@ -202,29 +209,21 @@ bool Acquisition::select(WorkBudget& budget) {
   return true;
 }
 
-// Other parts of the target among the same finalists, then finalists of fewer views.
+// Other parts of the target among the same finalists, then finalists of fewer views, and three dots
+// at last.
 void Acquisition::go_on_with_fewer() {
-  if (dots_ > fewest_dots_ && memory_->candidates.size() >= fewest_dots_) {
+  if (dots_ > fewest_dots() && memory_->candidates.size() >= fewest_dots()) {
     --dots_;
     begin_selection();
     return;
   }
   ++layer_;
-  const bool last_resort = fewest_dots_ < std::min(shape_.dots, core::kMinPartialDots);
-  if (layer_ < (last_resort ? kLayersOfThree : kViewLayers.size())) {
-    stage_ = Stage::finalists;
-  } else {
-    begin_last_resort(last_resort);
+  if (!last_resort_ && layer_ == kViewLayers.size() && shape_.dots > core::kMinDots) {
+    last_resort_ = true;
+    layer_ = 0;
   }
-}
-
-// Three dots of a larger target, when there is nothing better.
-void Acquisition::begin_last_resort(bool over) {
-  stage_ = Stage::ended;
-  if (over || shape_.dots <= core::kMinDots) return;
-  fewest_dots_ = core::kMinDots;
-  layer_ = 0;
-  stage_ = Stage::finalists;
+  const std::size_t layers = last_resort_ ? kLayersOfLastResort : kViewLayers.size();
+  stage_ = layer_ < layers ? Stage::finalists : Stage::ended;
 }
 
 // The score up to which another explanation is worth weighing: beyond it, it is less probable than
