@@ -140,8 +140,8 @@ HWY_INLINE void fill(const ImageView& image, const Window& window, Test in_band,
     }
     if (w > group) list(group, all);
     std::fill_n(words + w, kGroupWords, 0U);
+    bitmap.set_occupied_end(y, occupied);
   }
-  bitmap.set_occupied_end(occupied);
 }
 
 void fill_rows(const ImageView& image, const Window& window, std::uint8_t lo, std::uint8_t hi,

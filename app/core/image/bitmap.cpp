@@ -13,11 +13,4 @@ void Bitmap::reshape(int width_px, int height_px) {
   std::fill_n(row(height_px), words_per_row_ + kGroupWords, 0U);
 }
 
-std::size_t Bitmap::groups_before(int y, std::size_t at_least) const {
-  const auto groups = occupied();
-  const auto from = groups.begin() + static_cast<std::ptrdiff_t>(at_least);
-  const auto stop = std::lower_bound(from, groups.end(), y * kRowStep);
-  return static_cast<std::size_t>(stop - groups.begin());
-}
-
 }  // namespace dottrack::image

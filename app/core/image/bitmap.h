@@ -56,17 +56,19 @@ class Bitmap {
 
   // First pixels of the groups that are not zero, row by row.
   std::span<const PixelKey> occupied() const { return {occupied_.data(), occupied_count_}; }
-  // How many of these lie above row y; `at_least`: so many do.
-  std::size_t groups_before(int y, std::size_t at_least) const;
-  // To list more: where the list ends, and where it ends then.
+  // How many of these lie above row y, which is filled or the next to be.
+  std::size_t groups_before(int y) const { return y > 0 ? groups_to_[row_index(y - 1)] : 0; }
+  // To list more: where the list ends, and where it ends after row y.
   PixelKey* occupied_end() { return occupied_.data() + occupied_count_; }
-  void set_occupied_end(const PixelKey* end) {
+  void set_occupied_end(int y, const PixelKey* end) {
     occupied_count_ = static_cast<std::size_t>(end - occupied_.data());
+    groups_to_[row_index(y)] = static_cast<std::uint32_t>(occupied_count_);
   }
 
  private:
   static_assert(core::kMaxImageWidth + (kGroupWords + 1) * kWordBits <= kRowStep);
 
+  static std::size_t row_index(int y) { return static_cast<std::size_t>(y); }
   static std::size_t offset(int y) {
     return 1 + static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(kRowWords);
   }
@@ -80,6 +82,7 @@ class Bitmap {
              1 + static_cast<std::size_t>(kRowWords) * (core::kMaxImageHeight + 2 + kRowsBeyond)>
       words_{};
   std::array<PixelKey, kMaxGroups + 1> occupied_{};
+  std::array<std::uint32_t, core::kMaxImageHeight> groups_to_{};  // down to each row
 };
 
 }  // namespace dottrack::image

@@ -142,7 +142,7 @@ HWY_INLINE void store(RowSums packed, double* to) {
 }
 
 template <class D, class V = hn::Vec<D> >
-HWY_INLINE int greatest(D d, V v) {
+HWY_INLINE int greatest(D /*lanes*/, V v) {
   const hn::Half<D> half;
   const auto halves = hn::Max(hn::LowerHalf(half, v), hn::UpperHalf(half, v));
   if constexpr (MaxLanes(half) > 8) {

@@ -122,6 +122,7 @@ void Identifier::Memory::find_components(const Search& search) {
   }
   if (has_room) small.finish(bitmap);
   runs.scan(bitmap, has_room ? small.groups_left() : bitmap.occupied());
+  small.drop_from(runs.rows_searched());
   components.connect(runs);
 }
 
@@ -157,6 +158,8 @@ IdentifyCounts Identifier::Memory::pick_regions(const Search& search, const Regi
   const ImageView pixels = search.pixels();
   const PixelWeights weights = weights_of(search.band);
   const Thresholds thresholds = thresholds_of(search);
+  Window searched = search.window;
+  searched.y_max = searched.y_min + runs.rows_searched() - 1;
   const SumsOf of{pixels, thresholds, search.band.polarity, runs, components};
   const SizeBounds bounds(gate);
   IdentifyCounts counts;
@@ -168,8 +171,7 @@ IdentifyCounts Identifier::Memory::pick_regions(const Search& search, const Regi
     const std::span<RegionSums> sums{batch_sums.data(), count};
     sum_regions(of, candidates, sums.data());
     measure(sums, weights, moments);
-    judge({search.image, search.window, of, weights, candidates, sums, moments}, gate, regions,
-          counts);
+    judge({search.image, searched, of, weights, candidates, sums, moments}, gate, regions, counts);
   }
   return counts;
 }
@@ -182,10 +184,9 @@ IdentifyCounts Identifier::identify(const ImageView& image, const Band& band,
 IdentifyCounts Identifier::identify(const ImageView& image, const Window& window, const Band& band,
                                     const RegionGate& gate, Regions& regions) {
   regions.clear();
-  Search search{image, clipped(window, image), band};
+  const Search search{image, clipped(window, image), band};
   if (search.is_empty()) return {};
   memory_->find_components(search);
-  search.window.y_max = search.window.y_min + memory_->runs.rows_searched() - 1;
   return memory_->pick_regions(search, gate, regions);
 }
 

@@ -90,24 +90,12 @@ void LocalBackground::count_pixels() {
 
 void LocalBackground::stretch_means(std::size_t to) {
   count_pixels();
-  mean_of_boxes({column_sums_.data(), 2 * reach_ + 1, brightest_.data(), per_count_.data()}, count_,
-                means_.data());
-  if (contrast_256ths_ > 0) raise_means();
+  mean_of_boxes({column_sums_.data(), 2 * reach_ + 1, brightest_.data(), per_count_.data()},
+                {contrast_256ths_, needed_.over + 1, needed_.flip}, count_, means_.data());
   if (first_ < 0) means_[0] = means_[1];
   const auto last = static_cast<std::size_t>(count_ - 1);
   if (first_ + count_ - 1 > (image_.width_px - 1) / kTile_px) means_[last] = means_[last - 1];
   stretch(means_.data(), count_ - 1, stretched_[to].data());
-}
-
-// By what the contrast relative to the background is more than the absolute one.
-void LocalBackground::raise_means() {
-  const int absolute = needed_.over + 1;
-  for (int i = 0; i < count_; ++i) {
-    const int mean = means_[static_cast<std::size_t>(i)];
-    const int relative = ((mean ^ needed_.flip) * contrast_256ths_ + 128) / 256;
-    means_[static_cast<std::size_t>(i)] =
-        static_cast<std::uint8_t>(std::min(mean + std::max(relative - absolute, 0), 255));
-  }
 }
 
 void LocalBackground::extend(int y_end) {

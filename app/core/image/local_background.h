@@ -68,7 +68,6 @@ class LocalBackground {
   void start_boxes(int row);
   void count_pixels();
   void stretch_means(std::size_t to);
-  void raise_means();
 
   ImageView image_;
   Window window_;

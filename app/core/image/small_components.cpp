@@ -10,67 +10,10 @@
 // After foreach_target.h, by its rules.
 #include <hwy/highway.h>
 
-#include "app/core/image/simd_bits-inl.h"
-
 HWY_BEFORE_NAMESPACE();
 namespace dottrack::image {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using Words = hn::CappedTag<std::uint64_t, Bitmap::kGroupWords>;
-constexpr Words kWords;
-
-// Of a group of words, the pixels that have a 4-neighbour, and one pixel of each run with nothing
-// above it: its last one, or the word's. Returns a bit for each word: whether it has one of these.
-HWY_INLINE unsigned look_at_group(const std::uint64_t* group, std::uint64_t* connected,
-                                  std::uint64_t* beginnings) {
-  const auto at = [group](std::ptrdiff_t i) HWY_ATTR { return hn::LoadU(kWords, group + i); };
-  const auto last_bit = hn::Set(kWords, std::uint64_t{1} << 63U);
-  unsigned some = 0;
-  for (int i = 0; i < Bitmap::kGroupWords; i += static_cast<int>(MaxLanes(kWords))) {
-    const auto all = at(i);
-    const auto above = at(i - Bitmap::kRowWords);
-    const auto left = hn::Or(hn::ShiftLeft<1>(all), hn::ShiftRight<63>(at(i - 1)));
-    const auto right = hn::Or(hn::ShiftRight<1>(all), hn::ShiftLeft<63>(at(i + 1)));
-    const auto beside = hn::Or(above, at(i + Bitmap::kRowWords));
-    const auto here = hn::And(all, hn::Or(beside, hn::Or(left, right)));
-    hn::StoreU(here, kWords, connected + i);
-    // Added to a run, its first bit is carried on to behind its end, or to where it touches the row
-    // above; some carry out of the word.
-    const auto free = hn::AndNot(above, here);
-    const auto first = hn::AndNot(left, free);
-    const auto sum = hn::Add(free, first);
-    const auto carry = hn::Or(hn::And(free, first), hn::AndNot(sum, hn::Or(free, first)));
-    const auto behind = hn::AndNot(here, sum);
-    const auto begins = hn::Or(hn::ShiftRight<1>(behind), hn::And(carry, last_bit));
-    hn::StoreU(begins, kWords, beginnings + i);
-    const auto none = hn::Eq(begins, hn::Zero(kWords));
-    some |= static_cast<unsigned>(~bits_of(kWords, none) & ((1U << MaxLanes(kWords)) - 1)) << i;
-  }
-  return some;
-}
-
-// `connected`: a group after the other. Whether a word has a beginning cannot be predicted, so
-// there is no branch for it.
-void find_beginnings(const Bitmap& bitmap, std::span<const PixelKey> groups,
-                     std::uint64_t* connected, LinesAhead& ahead, Beginnings& found) {
-  std::size_t words = 0;
-  std::size_t at = 0;
-  for (const PixelKey group : groups) {
-    ahead.send();
-    const unsigned some =
-        look_at_group(bitmap.word(group), connected + at, found.words.data() + at);
-    words += list_set_bits(some, at, found.listed.data() + words);
-    at += Bitmap::kGroupWords;
-  }
-  for (std::size_t k = 0; k < words; ++k) {
-    ahead.send();
-    const std::size_t i = found.listed[k];
-    const PixelKey key = groups[i / Bitmap::kGroupWords] +
-                         static_cast<PixelKey>(i % Bitmap::kGroupWords * Bitmap::kWordBits);
-    found.size += write_positions(found.words[i], key, found.pixels.data() + found.size);
-  }
-}
 
 using Lanes = hn::CappedTag<std::uint32_t, 8>;
 using Bits = hn::Vec<Lanes>;
@@ -92,12 +35,12 @@ HWY_INLINE Bits lowest(Bits v) {
   return hn::And(v, hn::Sub(hn::Zero(kLanes), v));
 }
 
-// The number of the highest set bit, through the exponent of a number below 2^24.
-HWY_INLINE auto as_float(Bits v) {
-  return hn::ConvertTo(hn::RebindToFloat<Lanes>(), hn::BitCast(hn::RebindToSigned<Lanes>(), v));
-}
+// The number of the highest set bit, through the exponent of a number below 2^24; 0 if there is
+// none.
 HWY_INLINE Bits number_of_highest(Bits v) {
-  return hn::Sub(hn::ShiftRight<23>(hn::BitCast(kLanes, as_float(v))), hn::Set(kLanes, 127U));
+  const Bits some = hn::Max(v, hn::Set(kLanes, 1U));
+  const auto number = hn::ConvertTo(hn::RebindToFloat<Lanes>(), hn::BitCast(kInts, some));
+  return hn::Sub(hn::ShiftRight<23>(hn::BitCast(kLanes, number)), hn::Set(kLanes, 127U));
 }
 
 // All bits up to the highest that is set.
@@ -276,24 +219,6 @@ std::size_t follow_beginnings(Bitmap& bitmap, bool all, Beginnings& beginnings, 
   return static_cast<std::size_t>(next - to);
 }
 
-// The groups with pixels left that were connected. Whether there are any cannot be predicted, so
-// there is no branch for it. Returns how many; one more may be written.
-std::size_t list_groups_left(const Bitmap& bitmap, std::span<const PixelKey> groups,
-                             const std::uint64_t* connected, PixelKey* left) {
-  PixelKey* next = left;
-  for (const PixelKey group : groups) {
-    auto some = hn::Zero(kWords);
-    for (std::size_t i = 0; i < Bitmap::kGroupWords; i += MaxLanes(kWords)) {
-      some = hn::Or(some, hn::And(hn::LoadU(kWords, bitmap.word(group) + i),
-                                  hn::LoadU(kWords, connected + i)));
-    }
-    *next = group;
-    next += !hn::AllTrue(kWords, hn::Eq(some, hn::Zero(kWords)));
-    connected += Bitmap::kGroupWords;
-  }
-  return static_cast<std::size_t>(next - left);
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace dottrack::image
 HWY_AFTER_NAMESPACE();
@@ -301,9 +226,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace dottrack::image {
 
-HWY_EXPORT(find_beginnings);
 HWY_EXPORT(follow_beginnings);
-HWY_EXPORT(list_groups_left);
 
 void SmallComponents::clear() {
   size_ = 0;
@@ -314,18 +237,17 @@ void SmallComponents::clear() {
 }
 
 void SmallComponents::take(Bitmap& bitmap, int y_end, LinesAhead ahead) {
-  const std::size_t end = bitmap.groups_before(y_end, groups_taken_);
+  const std::size_t end = bitmap.groups_before(y_end);
   while (groups_taken_ < end) {
     const std::size_t count = std::min(end - groups_taken_, Beginnings::kMaxGroups);
-    HWY_DYNAMIC_DISPATCH(find_beginnings)
-    (bitmap, bitmap.occupied().subspan(groups_taken_, count),
-     connected_.data() + groups_taken_ * Bitmap::kGroupWords, ahead, beginnings_);
+    find_beginnings(bitmap, bitmap.occupied().subspan(groups_taken_, count),
+                    connected_.data() + groups_taken_ * Bitmap::kGroupWords, ahead, beginnings_);
     groups_taken_ += count;
     size_ += HWY_DYNAMIC_DISPATCH(follow_beginnings)(
         bitmap, false, beginnings_, components_.data() + size_, components_.data() + kCapacity);
   }
   const int y_settled = beginnings_.size > 0 ? row(beginnings_.pixels[0]) : y_end;
-  list_left(bitmap, bitmap.groups_before(y_settled, groups_listed_));
+  list_left(bitmap, bitmap.groups_before(y_settled));
 }
 
 void SmallComponents::finish(Bitmap& bitmap) {
@@ -334,11 +256,15 @@ void SmallComponents::finish(Bitmap& bitmap) {
   list_left(bitmap, groups_taken_);
 }
 
+void SmallComponents::drop_from(int y) {
+  while (size_ > 0 && components_[size_ - 1].first >= y * kRowStep) --size_;
+}
+
 void SmallComponents::list_left(const Bitmap& bitmap, std::size_t group_end) {
   const std::size_t count = group_end - groups_listed_;
-  left_count_ += HWY_DYNAMIC_DISPATCH(list_groups_left)(
-      bitmap, bitmap.occupied().subspan(groups_listed_, count),
-      connected_.data() + groups_listed_ * Bitmap::kGroupWords, left_.data() + left_count_);
+  left_count_ += list_groups_left(bitmap, bitmap.occupied().subspan(groups_listed_, count),
+                                  connected_.data() + groups_listed_ * Bitmap::kGroupWords,
+                                  left_.data() + left_count_);
   groups_listed_ = group_end;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "app/core/image/beginnings.h"
 #include "app/core/image/bitmap.h"
 #include "app/core/image/lines_ahead.h"
 
@@ -23,21 +24,6 @@ struct SmallComponent {
   std::uint8_t height_px;
 };
 
-// Runs with nothing above them: where components may begin. Each is told by one of its pixels.
-struct Beginnings {
-  static constexpr std::size_t kMaxGroups = 64;  // that are looked through at a time
-  static constexpr std::size_t kWords = kMaxGroups * Bitmap::kGroupWords;
-  static constexpr std::size_t kMaxLanes = 16;  // so many are followed at once; fewer may wait
-  static constexpr std::size_t kSpare = 2;
-  static constexpr std::size_t kCapacity =
-      kMaxLanes + kWords * (Bitmap::kWordBits / 2) + kSpare + kMaxLanes;
-
-  std::array<PixelKey, kCapacity> pixels{};
-  std::size_t size = 0;
-  std::array<std::uint64_t, kWords> words{};                        // a bit for each
-  std::array<std::uint8_t, kWords + Bitmap::kGroupWords> listed{};  // which of them are not zero
-};
-
 // Of these components every row is one run: one with a gap in a row is left in the bitmap, as is a
 // larger one. Each is followed downwards from its first run, several side by side.
 class SmallComponents {
@@ -51,6 +37,8 @@ class SmallComponents {
   void take(Bitmap& bitmap, int y_end, LinesAhead ahead);
   // Follows what is left; then the components are complete.
   void finish(Bitmap& bitmap);
+  // Forgets those that begin in row y or below.
+  void drop_from(int y);
 
   // In the order of their first pixels.
   std::size_t size() const { return size_; }

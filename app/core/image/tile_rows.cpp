@@ -77,11 +77,15 @@ void slide(const std::uint16_t* added, const std::uint16_t* dropped, int n, std:
 }
 
 // The sums are exact in single precision: below 2^24.
-void means_of(const TileBoxes& boxes, int n, std::uint8_t* means) {
+void means_of(const TileBoxes& boxes, const RelativeContrast& contrast, int n,
+              std::uint8_t* means) {
   const hn::CappedTag<std::int32_t, 8> d;
   const hn::RebindToFloat<decltype(d)> df;
   const hn::Rebind<std::uint8_t, decltype(d)> d8;
   constexpr int kStep = static_cast<int>(MaxLanes(d));
+  const auto part = hn::Set(d, contrast.part_256ths);
+  const auto absolute = hn::Set(d, contrast.absolute_dn);
+  const auto flip = hn::Set(d, std::int32_t{contrast.flip});
   for (int i = 0; i < n; i += kStep) {
     auto sum = hn::LoadU(d, boxes.column_sums + i);
     for (int k = 1; k < boxes.box; ++k) {
@@ -89,7 +93,11 @@ void means_of(const TileBoxes& boxes, int n, std::uint8_t* means) {
     }
     sum = hn::Abs(hn::Sub(hn::LoadU(d, boxes.brightest + i), sum));
     const auto mean = hn::Mul(hn::ConvertTo(df, sum), hn::LoadU(df, boxes.per_count + i));
-    hn::StoreU(hn::DemoteTo(d8, hn::NearestInt(mean)), d8, means + i);
+    const auto background = hn::NearestInt(mean);
+    const auto relative =
+        hn::ShiftRight<8>(hn::Add(hn::Mul(hn::Xor(background, flip), part), hn::Set(d, 128)));
+    const auto more = hn::Max(hn::Sub(relative, absolute), hn::Zero(d));
+    hn::StoreU(hn::DemoteTo(d8, hn::Add(background, more)), d8, means + i);
   }
 }
 
@@ -169,8 +177,9 @@ void slide_tiles(const std::uint16_t* added, const std::uint16_t* dropped, int n
   HWY_DYNAMIC_DISPATCH(slide)(added, dropped, n, sums);
 }
 
-void mean_of_boxes(const TileBoxes& boxes, int n, std::uint8_t* means) {
-  HWY_DYNAMIC_DISPATCH(means_of)(boxes, n, means);
+void mean_of_boxes(const TileBoxes& boxes, const RelativeContrast& contrast, int n,
+                   std::uint8_t* means) {
+  HWY_DYNAMIC_DISPATCH(means_of)(boxes, contrast, n, means);
 }
 
 void stretch(const std::uint8_t* means, int n, std::uint8_t* row) {

@@ -31,8 +31,17 @@ struct TileBoxes {
   const float* per_count;         // the inverse of the pixels in the box
 };
 
-// means[i] = the mean of the box's pixels, flipped for dark dots, rounded to an integer.
-void mean_of_boxes(const TileBoxes& boxes, int n, std::uint8_t* means);
+// A contrast relative to the background, and by what it is more than an absolute one.
+struct RelativeContrast {
+  std::int32_t part_256ths;
+  std::int32_t absolute_dn;
+  Flip flip;  // the background's value is this way round
+};
+
+// means[i] = the mean of the box's pixels, flipped for dark dots, rounded to an integer, and raised
+// by what the relative contrast asks for beyond the absolute one; at most 255.
+void mean_of_boxes(const TileBoxes& boxes, const RelativeContrast& contrast, int n,
+                   std::uint8_t* means);
 
 // From means in the middles of tiles to a row of pixels which begins in the middle of the first:
 // one, three, five and seven eighths of the way from means[i] to means[i + 1], two pixels each, for
