@@ -9,7 +9,7 @@ namespace dottrack::core {
 
 inline constexpr std::size_t kMaxDots = 16;
 inline constexpr std::size_t kMinDots = 3;
-inline constexpr std::size_t kMinPartialDots = 4;   // of a larger target, that a lock may rest on
+inline constexpr std::size_t kMinPartialDots = 4;   // of a larger target; kMinDots as a last resort
 inline constexpr std::size_t kMaxRegions = 1024;    // accepted regions a camera
 inline constexpr std::size_t kMaxFinalists = 8192;  // 3-D dot finalists
 inline constexpr int kMaxImageWidth = 2048;

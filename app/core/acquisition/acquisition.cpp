@@ -16,6 +16,10 @@ namespace {
 // among the finalists of many views first, then of fewer.
 constexpr std::array<int, 4> kViewLayers = {6, 4, 3, 2};
 
+// Three dots of a larger target are the last resort, and only among finalists of the first so many
+// layers: of three that two cameras each see, most are chance.
+constexpr std::size_t kLayersOfLastResort = 3;
+
 // A later candidate takes the place of an earlier one, of more dots or more views, only when it is
 // clearly less probable to be false.
 constexpr double kClearlyLess = 0.5;
@@ -94,8 +98,12 @@ std::size_t Acquisition::sightings(std::size_t camera) const {
   return memory_->views[camera].sightings.size();
 }
 
+std::size_t Acquisition::most_dots() const {
+  return last_resort_ ? core::kMinDots : shape_.dots;
+}
+
 std::size_t Acquisition::fewest_dots() const {
-  return std::min(shape_.dots, core::kMinPartialDots);
+  return std::min(shape_.dots, last_resort_ ? core::kMinDots : core::kMinPartialDots);
 }
 
 void Acquisition::start(std::span<const image::Regions* const> regions) {
@@ -110,6 +118,7 @@ void Acquisition::start(std::span<const image::Regions* const> regions) {
   has_candidate_ = false;
   memory_->search.start(views, core::largest_dot_diameter_m(rig_->target));
   layer_ = 0;
+  last_resort_ = false;
   stage_ = seeing >= 2 ? Stage::finalists : Stage::ended;
 }
 
@@ -156,7 +165,7 @@ void Acquisition::note(core::Reason reason) {
 bool Acquisition::find_finalists(WorkBudget& budget) {
   core::AcquisitionCounts& counts = memory_->result.counts;
   if (!memory_->search.advance(kViewLayers[layer_], budget, counts)) return false;
-  dots_ = shape_.dots;
+  dots_ = most_dots();
   begin_selection();
   return true;
 }
@@ -200,7 +209,8 @@ bool Acquisition::select(WorkBudget& budget) {
   return true;
 }
 
-// Other parts of the target among the same finalists, then finalists of fewer views.
+// Other parts of the target among the same finalists, then finalists of fewer views, and three dots
+// at last.
 void Acquisition::go_on_with_fewer() {
   if (dots_ > fewest_dots() && memory_->candidates.size() >= fewest_dots()) {
     --dots_;
@@ -208,7 +218,12 @@ void Acquisition::go_on_with_fewer() {
     return;
   }
   ++layer_;
-  stage_ = layer_ < kViewLayers.size() ? Stage::finalists : Stage::ended;
+  if (!last_resort_ && layer_ == kViewLayers.size() && shape_.dots > core::kMinDots) {
+    last_resort_ = true;
+    layer_ = 0;
+  }
+  const std::size_t layers = last_resort_ ? kLayersOfLastResort : kViewLayers.size();
+  stage_ = layer_ < layers ? Stage::finalists : Stage::ended;
 }
 
 // The score up to which another explanation is worth weighing: beyond it, it is less probable than

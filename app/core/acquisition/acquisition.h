@@ -27,9 +27,9 @@ struct AcquisitionResult {
 };
 
 // One search at a time, in as many steps as its budgets make of it. Dots seen by many cameras are
-// looked for first, and the whole target before parts of it: the search ends with the first
-// candidate that is certain enough, else with the best of all. All memory is taken at construction;
-// the rig and the optics must outlive the object.
+// looked for first, and the whole target before parts of it, three dots of a larger one at last:
+// the search ends with the first candidate that is certain enough, else with the best of all. All
+// memory is taken at construction; the rig and the optics must outlive the object.
 class Acquisition {
  public:
   Acquisition(const core::Rig& rig, std::span<const geometry::Optics> optics);
@@ -84,6 +84,7 @@ class Acquisition {
   core::Reason make_lock(const Selection& selection, WorkBudget& budget, CandidateLock& lock) const;
   double ellipse_evidence(const Selection& selection, const core::Pose& pose) const;
   double rival_score() const;
+  std::size_t most_dots() const;  // that a selection is to match, at first and at last
   std::size_t fewest_dots() const;
 
   const core::Rig* rig_;
@@ -91,8 +92,9 @@ class Acquisition {
   TargetShape shape_;
   Stage stage_ = Stage::ended;
   bool has_candidate_ = false;
-  std::size_t layer_ = 0;  // of kViewLayers
-  std::size_t dots_ = 0;   // that the present selection is to match
+  bool last_resort_ = false;  // three dots of a larger target are looked for
+  std::size_t layer_ = 0;     // of kViewLayers
+  std::size_t dots_ = 0;      // that the present selection is to match
   std::unique_ptr<Memory> memory_;
 };
 

@@ -103,7 +103,7 @@ inline Calibration calibrate(const Mix& mix) {
     std::erase_if(scene.finalists, [&](const Finalist& f) {
       return static_cast<std::size_t>(f.cameras.size()) < mix.least_views;
     });
-    const auto lock = finder.find(scene, kLimit_m);
+    const auto lock = finder.find(scene, kLimit_m, mix.least_views == 0);
     if (!lock) continue;
     const double p = false_lock_probability(lock->log_odds, as_span(lock->rivals));
     const bool wrong = is_wrong(scene, *lock);

@@ -33,6 +33,16 @@ TEST(EvidenceCalibration, OfTargetsInPart) {
   EXPECT_EQ(calibration.row("probability below 1e-6").wrong, 0.0);
 }
 
+// Three dots of a larger target, where no four of them are certain.
+TEST(EvidenceCalibration, OfThreeDotsOfMore) {
+  const Calibration calibration = calibrate({1004, 12000, {4, 5, 5, 5, 5, 5, 5, 6}});
+  EXPECT_GE(calibration.row("3 dots matched").candidates, 2000.0);
+  EXPECT_GE(calibration.row("3 dots matched").wrong, 200.0);
+  EXPECT_GE(calibration.check(), 5);
+  EXPECT_GE(calibration.row("probability below 1e-6").candidates, 1000.0);
+  EXPECT_EQ(calibration.row("probability below 1e-6").wrong, 0.0);
+}
+
 // The search ends among these when what it finds is certain enough: clutter of fewer views that
 // crowds around it has not been looked for.
 TEST(EvidenceCalibration, OfFinalistsOfManyViewsAlone) {

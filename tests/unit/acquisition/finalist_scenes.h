@@ -168,10 +168,12 @@ inline bool same_place(const core::Target& target, const geometry::RigidMotion& 
 }
 
 // Looks for the target as acquisition does, among finalists of many views and of few, whole and in
-// part; of all it finds, the most probable, those at other places its rivals.
+// part; three dots of a larger one only where nothing certain is found, and not among those of two
+// views. Of all it finds, the most probable, those at other places its rivals.
 class Finder {
  public:
-  std::optional<CandidateLock> find(const FinalistScene& scene, double max_rms_residual_m) {
+  std::optional<CandidateLock> find(const FinalistScene& scene, double max_rms_residual_m,
+                                    bool last_resort = true) {
     limit_m_ = max_rms_residual_m;
     scene_ = &scene;
     shape_ = make_target_shape(scene.target);
@@ -182,21 +184,33 @@ class Finder {
         look(views, dots);
       }
     }
+    std::optional<CandidateLock> lock = best();
+    if (!last_resort || shape_.dots == 3 || (lock && probability(*lock) <= kCertain)) return lock;
+    for (const int views : {4, 3}) look(views, 3);
+    return best();
+  }
+
+ private:
+  static constexpr double kCertain = 1e-6;
+
+  static double probability(const CandidateLock& lock) {
+    return false_lock_probability(lock.log_odds, as_span(lock.rivals));
+  }
+
+  std::optional<CandidateLock> best() const {
     if (found_.empty()) return std::nullopt;
-    const auto best =
-        std::max_element(found_.begin(), found_.end(),
-                         [](const auto& a, const auto& b) { return a.log_odds < b.log_odds; });
-    CandidateLock lock = *best;
+    CandidateLock lock =
+        *std::max_element(found_.begin(), found_.end(),
+                          [](const auto& a, const auto& b) { return a.log_odds < b.log_odds; });
     for (const CandidateLock& other : found_) {
       if (lock.rivals.size() < lock.rivals.capacity() &&
-          !same_place(scene.target, {other.pose.position_m, other.pose.orientation}, lock.pose)) {
+          !same_place(scene_->target, {other.pose.position_m, other.pose.orientation}, lock.pose)) {
         lock.rivals.push_back(rival_log_odds(lock, other));
       }
     }
     return lock;
   }
 
- private:
   // The best and the next best.
   void look(int views, std::size_t dots) {
     std::vector<DotCandidate> candidates;

@@ -339,6 +339,30 @@ TEST(TrackerTargets, OfThreeDotsLockOnceTheyMove) {
   expect_locked(tracker.step(room.frames(Time{} + std::chrono::milliseconds(100))), moved);
 }
 
+// The others stay hidden, as in a shadow: what is seen of the three is weighed by itself.
+TEST(TrackerTargets, OfWhichThreeDotsAreSeenLockOnceTheyMove) {
+  PaintedRoom room(5);
+  Tracker tracker(room.rig);
+  const auto show = [&](const Pose& pose, int tick) -> const TickResult& {
+    room.clear();
+    for (const std::size_t dot : {0U, 2U, 3U}) room.paint_dot(pose, dot);
+    room.paint_clutter(6, 12);
+    return tracker.step(room.frames(Time{} + tick * std::chrono::milliseconds(100)));
+  };
+  const TickResult& doubtful = show(PaintedRoom::pose_at(4.0, 2.8, 1.0), 0);
+  EXPECT_EQ(doubtful.reason, Reason::held_back);
+  EXPECT_EQ(doubtful.acquisition.dots_matched, 3);
+  EXPECT_GT(doubtful.acquisition.false_lock_probability, 1e-6);
+  int tick = 1;
+  for (; tick < 6; ++tick) {
+    const Pose pose = PaintedRoom::pose_at(4.0 + 0.06 * tick, 2.8, 1.0);
+    if (!show(pose, tick).has_pose) continue;
+    expect_locked(show(pose, tick), pose);
+    return;
+  }
+  FAIL() << "no lock in " << tick << " ticks";
+}
+
 // Camera 0 is frozen: it shows all dots where they were, and would be believed.
 TEST_F(TrackerTest, APictureThatNoLongerChangesIsLeftOut) {
   lock();
