@@ -14,8 +14,8 @@ namespace dottrack::core {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// So that it costs a fiftieth of finding the regions.
-constexpr int kRowStep = 32;
+// So that it costs a few hundredths of finding the regions.
+constexpr int kRowStep = 16;
 // What is added to a word counts up by this from word to word: an odd number with no pattern.
 constexpr std::uint32_t kKeyStep = 0x9E3779B9U;
 constexpr std::size_t kBlock_bytes = 32;  // what is left of a row does not count
