@@ -73,7 +73,7 @@ CameraMove read_move(Complaint& complaint, const toml::table& table, const Scene
   move.turn_rad = radians(1.0) * vector("turn_deg", kTurn);
   move.shift_m = vector("shift_m", kShift);
   if (move.turn_rad.isZero(0.0) && move.shift_m.isZero(0.0)) {
-    reader.complain("camera", "no move at all", "turn_deg, shift_m or both");
+    reader.complain("camera", "not moved at all", "turn_deg, shift_m or both");
   }
   return move;
 }

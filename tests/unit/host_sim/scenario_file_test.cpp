@@ -337,7 +337,7 @@ TEST(ScenarioFile, CamerasAreKnockedAgainst) {
       "s.toml");
   ASSERT_FALSE(nothing);
   EXPECT_EQ(nothing.error().message,
-            "s.toml:7: no move at all; expected turn_deg, shift_m or both");
+            "s.toml:7: camera is not moved at all; expected turn_deg, shift_m or both");
 }
 
 class BuiltInScenario : public testing::TestWithParam<const char*> {};

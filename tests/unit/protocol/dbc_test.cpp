@@ -180,7 +180,7 @@ TEST(Dbc, NamesCommandsInBothDirections) {
 }
 
 TEST(Dbc, NamesCameraHealthAndVisibility) {
-  const Values health{{0, "absent"}, {1, "used"},     {2, "unused"},    {3, "no_frame"},
+  const Values health{{0, "absent"}, {1, "used"},     {2, "unused"},     {3, "no_frame"},
                       {4, "stale"},  {5, "overflow"}, {6, "iris_fault"}, {7, "moved"}};
   for (const DbcSignal& signal : layout_of("Cameras").signals) {
     if (!signal.name.starts_with("Camera")) continue;

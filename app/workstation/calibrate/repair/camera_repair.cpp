@@ -34,9 +34,9 @@ constexpr double kHuber = 2.5;     // standard deviations; beyond, a view counts
 constexpr double kLeastSigma_px = 1e-3;
 constexpr std::size_t kFewestTicks = 10;
 constexpr std::size_t kFewestViews = 30;
-// A pose that the views leave open by more than this is none.
+// A pose that the views leave open by more than this is little more than what is known beforehand.
 constexpr double kWorstTurnSigma_rad = 0.005;
-constexpr double kWorstShiftSigma_m = 0.05;
+constexpr double kWorstShiftSigma_m = 0.008;
 // Neighbours in time share what is odd about their pictures, and the error of the poses.
 constexpr std::size_t kTicksTogether = 10;
 // What a knock does, standard deviations: views in a small part of a picture hardly tell a turn
@@ -201,13 +201,16 @@ class Fit {
       group.setZero();
       groups += 1.0;
     }
+    const double white = weighted2 / std::max(freedom, 1.0);
     const Matrix6d inverse = information.inverse();
-    const Matrix6d white = weighted2 / std::max(freedom, 1.0) * inverse;
     const Matrix6d robust = groups / std::max(groups - 1.0, 1.0) * inverse * scatter * inverse;
-    // In units of the white one's standard deviations, so that metres and radians compare.
-    const Matrix6d information_of_white = information * (std::max(freedom, 1.0) / weighted2);
-    const double ratio = (information_of_white * robust).trace() / 6.0;
-    return std::max(ratio, 1.0) * white;
+    // In units of white noise's variances, so that metres and radians compare.
+    const double ratio = (information * robust).trace() / (6.0 * white);
+    information.diagonal() -= prior_information();
+    Matrix6d known = information / (std::max(ratio, 1.0) * white);
+    known.diagonal().head<3>().array() += 1.0 / (kKnockTurn_rad * kKnockTurn_rad);
+    known.diagonal().tail<3>().array() += 1.0 / (kKnockShift_m * kKnockShift_m);
+    return known.inverse();
   }
 
   // Of all the model's numbers. Those of the lens are what they were, and what they are off by has
