@@ -269,7 +269,7 @@ TEST(ReceiverAgreesWithTheDbc, AboutTheWordsOfEveryNumber) {
   compare("DOTTRACK_FdPose", "Reason", dottrack_reason_text);
   compare("DOTTRACK_Cameras", "Camera16", dottrack_health_text);
   compare("DOTTRACK_Reply", "Result", dottrack_result_text);
-  EXPECT_EQ(words, 2U + 16U + 16U + 7U + 6U);
+  EXPECT_EQ(words, 2U + 16U + 16U + 8U + 6U);
 }
 
 }  // namespace
