@@ -126,9 +126,8 @@ class Bundle {
       if (!view.kept) continue;
       AdjustedCamera& c = adjustment_.cameras[view.camera];
       AdjustedDot& dot = adjustment_.dots[view.dot];
-      auto* const cost = new ceres::AutoDiffCostFunction<ViewCost, 2, kNumbers, 3>(
-          new ViewCost{&c.camera.frame, c.camera.kind, dot.surveyed_m, view.pixel,
-                       adjustment_.sigma_px(view)});
+      auto* const cost = new ceres::AutoDiffCostFunction<ViewCost, 2, kNumbers, 3>(new ViewCost{
+          &c.camera.frame, c.camera.kind, dot.surveyed_m, view.pixel, adjustment_.sigma_px(view)});
       problem_.AddResidualBlock(cost, loss_.get(), c.camera.numbers.data(), dot.offset_m.data());
       seen_[view.dot] = true;
     }
@@ -151,8 +150,8 @@ class Bundle {
   void add_cameras() {
     for (AdjustedCamera& c : adjustment_.cameras) {
       if (!problem_.HasParameterBlock(c.camera.numbers.data())) continue;
-      auto* const cost = new ceres::AutoDiffCostFunction<NumberCost, kNumbers, kNumbers>(
-          new NumberCost{c.priors});
+      auto* const cost =
+          new ceres::AutoDiffCostFunction<NumberCost, kNumbers, kNumbers>(new NumberCost{c.priors});
       problem_.AddResidualBlock(cost, nullptr, c.camera.numbers.data());
       const std::vector<int> fixed = fixed_numbers(c.camera.kind);
       if (!fixed.empty()) {

@@ -42,7 +42,7 @@ struct ResidualOfView {
   Eigen::Vector2d off_px = Eigen::Vector2d::Zero();           // seen less surveyed dot's image
   Eigen::Vector2d off_adjusted_px = Eigen::Vector2d::Zero();  // seen less adjusted dot's image
   Eigen::Vector2d holdout_px = Eigen::Vector2d::Zero();  // as off_px, of a model without this dot
-  bool used = true;  // false: left out by the automatic editing
+  bool used = true;                                      // false: left out by the automatic editing
 };
 
 // Standard deviations of what a person knows a camera by.
@@ -69,11 +69,11 @@ struct CameraCalibration {
   geometry::CameraModel model;
   Eigen::MatrixXd covariance;  // in the order of JPL's files: C A H V [O R [E]]
   ModelKind chosen = ModelKind::cahv;
-  double rms_px = 0.0;          // of what was used, to the surveyed dots
-  double rms_adjusted_px = 0.0;  // of what was used, to the adjusted dots
-  double holdout_rms_px = 0.0;  // of what was used, by models fitted without the dot
-  double image_sigma_px = 0.0;  // typical, of a coordinate: as estimated
-  double coverage = 0.0;        // part of the image within the dots' convex hull, 0 to 1
+  double rms_px = 0.0;                   // of what was used, to the surveyed dots
+  double rms_adjusted_px = 0.0;          // of what was used, to the adjusted dots
+  double holdout_rms_px = 0.0;           // of what was used, by models fitted without the dot
+  double image_sigma_px = 0.0;           // typical, of a coordinate: as estimated
+  double coverage = 0.0;                 // part of the image within the dots' convex hull, 0 to 1
   std::vector<Eigen::Vector2d> hull_px;  // that hull
   ParameterSigmas sigmas;
   std::vector<TriedModel> tried;  // where there was a choice
@@ -100,7 +100,7 @@ struct Calibration {
   std::vector<SuspectDot> suspects;        // the worst first
   double survey_scale = 1.0;               // estimated sigma of the survey over what was claimed
   double holdout_rms_px = 0.0;             // of all cameras
-  double holdout_rms_m = 0.0;  // of left-out dots triangulated; 0: none is seen by two cameras
+  double holdout_rms_m = 0.0;    // of left-out dots triangulated; 0: none is seen by two cameras
   std::size_t holdout_dots = 0;  // that were triangulated
   std::vector<std::string> remarks;
 };

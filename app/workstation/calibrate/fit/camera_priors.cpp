@@ -13,8 +13,8 @@ constexpr double kFlatCentreSigma = 0.02;
 constexpr double kSkewSigma = 2e-3;
 constexpr double kAxisSigma = 0.05;
 constexpr double kPortAxisSigma = 0.5;  // of CAHVORE: the axis may be that of a window
-constexpr double kBendSigma = 0.3;      // of the image's half diagonal, what a radial term does there
-constexpr double kPupilSigma = 0.3;     // distances
+constexpr double kBendSigma = 0.3;   // of the image's half diagonal, what a radial term does there
+constexpr double kPupilSigma = 0.3;  // distances
 
 }  // namespace
 

@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int kTrims = 5;
-constexpr double kTrimAt = 4.0;       // medians
+constexpr double kTrimAt = 4.0;        // medians
 constexpr double kLeastTrim_px = 1.0;  // nothing closer than this is wrong
 constexpr std::size_t kSample = 9;
 constexpr int kSamples = 200;

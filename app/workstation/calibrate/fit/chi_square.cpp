@@ -15,7 +15,9 @@ double log_erfc(double x) {
 
 }  // namespace
 
-double surprise2(double sum) { return 0.5 * std::max(sum, 0.0); }
+double surprise2(double sum) {
+  return 0.5 * std::max(sum, 0.0);
+}
 
 double surprise3(double sum) {
   const double half = 0.5 * std::max(sum, 0.0);

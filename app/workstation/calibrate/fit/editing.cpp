@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "app/workstation/calibrate/fit/chi_square.h"
+#include "app/workstation/calibrate/fit/habits.h"
 
 namespace dottrack::calibrate {
 namespace {
@@ -14,7 +15,7 @@ constexpr double kFalseViews = 0.005;  // expected number of good views left out
 constexpr double kFalseDots = 0.0005;  // ... and of good dots suspected
 constexpr double kHysteresis = 0.8;    // of the surprise, below which something comes back
 constexpr int kMostReturns = 2;        // of the same view
-constexpr double kLeastPart = 0.01;    // of a direction's variance, in which a residual tells a thing
+constexpr double kLeastPart = 0.01;  // of a direction's variance, in which a residual tells a thing
 constexpr std::size_t kFewestViews = 6;  // that editing leaves a camera
 
 // r^T C^-1 r over the directions in which the residual is not explained away.
@@ -79,7 +80,8 @@ bool Editor::bring_back(Adjustment& adjustment, const Surprises& all) {
   const double most_dot = kHysteresis * limit(kFalseDots, all.surveys.size());
   for (std::size_t i = 0; i < all.surveys.size(); ++i) {
     AdjustedDot& dot = adjustment.dots[i];
-    if (dot.trusted || all.surveys[i] > most_dot || returns_of_surveys_[i] >= kMostReturns) continue;
+    if (dot.trusted || all.surveys[i] > most_dot || returns_of_surveys_[i] >= kMostReturns)
+      continue;
     dot.trusted = true;
     ++returns_of_surveys_[i];
     changed = true;
@@ -124,8 +126,9 @@ bool Editor::leave_out(Adjustment& adjustment, const Surprises& all) {
       continue;
     }
     View& view = adjustment.views[i];
-    const bool needed = of_camera[view.camera] <= kFewestViews ||
-                        (!adjustment.dots[view.dot].trusted && of_dot[view.dot] <= kLeastViewsOfDot);
+    const bool needed =
+        of_camera[view.camera] <= kFewestViews ||
+        (!adjustment.dots[view.dot].trusted && of_dot[view.dot] <= kLeastViewsOfDot);
     if (camera_touched[view.camera] || dot_touched[view.dot] || needed) continue;
     view.kept = false;
     camera_touched[view.camera] = true;
@@ -146,7 +149,8 @@ namespace {
 constexpr double kLeastImageSigma_px = 0.003;
 constexpr double kLeastSurveySigma = 1e-7;  // of the distance
 constexpr double kEnoughRedundancy = 20.0;
-constexpr double kBelief = 20.0;  // as many coordinates as a camera's noise is believed to be that of all
+constexpr double kBelief =
+    20.0;  // as many coordinates as a camera's noise is believed to be that of all
 
 struct Sums {
   double square = 0.0;
@@ -204,52 +208,6 @@ double least_survey_scale(const Adjustment& adjustment) {
   return kLeastSurveySigma * distance / sigma;
 }
 
-// How far the cameras' numbers of one sort are from what cameras ideally have is learnt from the
-// cameras themselves: where none is off by more than its noise, none is believed to be.
-struct Habit {
-  int first;
-  int count;
-  double least_sigma;
-};
-constexpr Habit kHabits[] = {{kAspect, 1, 5e-5}, {kSkew, 1, 5e-5}, {kAxis, 2, 5e-4}};
-constexpr double kHabitBelief = 1.0;  // numbers that are believed to be as off as assumed
-
-double learn_habit(Adjustment& adjustment, const Information& information, const Habit& habit) {
-  double square = kHabitBelief;
-  double redundancy = kHabitBelief;
-  for (std::size_t i = 0; i < adjustment.cameras.size(); ++i) {
-    const AdjustedCamera& c = adjustment.cameras[i];
-    for (int k = habit.first; k < habit.first + habit.count; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      if (!is_free(c.camera.kind, k) || !(c.priors.sigma[at] > 0.0)) continue;
-      const double off = (c.camera.numbers[at] - c.priors.mean[at]) / c.priors.sigma[at];
-      square += off * off;
-      redundancy += 1.0 - information.cameras[i](k, k) / std::pow(c.priors.sigma[at], 2);
-    }
-  }
-  const double factor = std::sqrt(square / redundancy);
-  double change = 0.0;
-  for (AdjustedCamera& c : adjustment.cameras) {
-    for (int k = habit.first; k < habit.first + habit.count; ++k) {
-      double& sigma = c.priors.sigma[static_cast<std::size_t>(k)];
-      const double before = sigma;
-      if (!(sigma > habit.least_sigma)) continue;
-      sigma = std::clamp(sigma * factor, habit.least_sigma,
-                         c.priors.loosest[static_cast<std::size_t>(k)]);
-      change = std::max(change, std::abs(std::log(sigma / before)));
-    }
-  }
-  return change;
-}
-
-double learn_habits(Adjustment& adjustment, const Information& information) {
-  double change = 0.0;
-  for (const Habit& habit : kHabits) {
-    change = std::max(change, learn_habit(adjustment, information, habit));
-  }
-  return change;
-}
-
 }  // namespace
 
 double estimate_noise(Adjustment& adjustment, const Information& information,
@@ -287,8 +245,7 @@ double estimate_noise(Adjustment& adjustment, const Information& information,
     const double own2 = cameras[i].factor2(options.robust, kMedian2);
     const double weight = options.for_each_camera ? cameras[i].redundancy : 0.0;
     const double factor2 = (weight * own2 + kBelief * common2) / (weight + kBelief);
-    change =
-        std::max(change, scale_by(adjustment.cameras[i].image_scale, factor2, least_image));
+    change = std::max(change, scale_by(adjustment.cameras[i].image_scale, factor2, least_image));
   }
   return std::max(change, scale_by(adjustment.survey_scale,
                                    survey.factor2(options.robust, kMedian3), least_survey));

@@ -1,7 +1,7 @@
 #pragma once
-// Automatic editing in the sense of the paper's reference [14]: leave out the worst, fit again, test
-// again all that is left out and bring back what fits, until nothing changes. Views of dots and
-// whole surveyed places are both tested, and what is the better explanation goes.
+// Automatic editing in the sense of the paper's reference [14]: leave out the worst, fit again,
+// test again all that is left out and bring back what fits, until nothing changes. Views of dots
+// and whole surveyed places are both tested, and what is the better explanation goes.
 
 #include <cstddef>
 #include <vector>
@@ -22,7 +22,7 @@ Surprises surprises(const Adjustment& adjustment, const Information& information
 // Sigmas from the residuals themselves.
 struct NoiseOptions {
   bool estimate = true;
-  bool robust = false;      // by medians: where much may still be wrong
+  bool robust = false;  // by medians: where much may still be wrong
   bool for_each_camera = true;
 };
 

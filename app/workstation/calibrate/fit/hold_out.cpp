@@ -57,8 +57,7 @@ HeldOut hold_out(const Adjustment& whole, std::size_t folds, unsigned threads) {
   HeldOut out;
   out.off_px.resize(whole.views.size());
   out.off_m.resize(whole.dots.size());
-  for_each_index(folds, threads,
-                 [&](std::size_t fold) { Fold(whole, fold, folds, out).judge(); });
+  for_each_index(folds, threads, [&](std::size_t fold) { Fold(whole, fold, folds, out).judge(); });
   return out;
 }
 

@@ -11,8 +11,9 @@
 namespace dottrack::calibrate {
 
 struct HeldOut {
-  std::vector<std::optional<Eigen::Vector2d>> off_px;  // of each view: seen less surveyed dot's image
-  std::vector<std::optional<Eigen::Vector3d>> off_m;   // of each dot: triangulated less surveyed
+  std::vector<std::optional<Eigen::Vector2d>>
+      off_px;  // of each view: seen less surveyed dot's image
+  std::vector<std::optional<Eigen::Vector3d>> off_m;  // of each dot: triangulated less surveyed
 };
 
 // Every fold's dots are left out once; noise and editing are those of the whole adjustment.

@@ -50,8 +50,8 @@ class Elimination {
     const MatrixXd scaled = scale.asDiagonal() * reduced_ * scale.asDiagonal();
     const Eigen::LLT<MatrixXd> factor(scaled);
     if (factor.info() != Eigen::Success) return std::nullopt;
-    inverse_ = scale.asDiagonal() *
-               factor.solve(MatrixXd::Identity(layout_.size, layout_.size)) * scale.asDiagonal();
+    inverse_ = scale.asDiagonal() * factor.solve(MatrixXd::Identity(layout_.size, layout_.size)) *
+               scale.asDiagonal();
     if (!inverse_.allFinite()) return std::nullopt;
     Information information;
     for (std::size_t i = 0; i < a_.cameras.size(); ++i) information.cameras.push_back(block(i, i));
@@ -179,8 +179,8 @@ class Elimination {
     Judged<3>& judged = out.surveys.emplace_back();
     const Vector3d sigma = a_.survey_scale * dot.sigma_m;
     judged.residual = dot.offset_m.cwiseQuotient(sigma);
-    const Matrix3d scaled = sigma.cwiseInverse().asDiagonal() * out.dots[j] *
-                            sigma.cwiseInverse().asDiagonal();
+    const Matrix3d scaled =
+        sigma.cwiseInverse().asDiagonal() * out.dots[j] * sigma.cwiseInverse().asDiagonal();
     judged.covariance =
         dot.trusted ? Matrix3d(Matrix3d::Identity() - scaled) : Matrix3d::Identity() + scaled;
     judged.known =
@@ -199,9 +199,8 @@ class Elimination {
     Judged<2>& judged = out.views[i];
     judged.known = true;
     judged.residual = w.residual;
-    judged.covariance =
-        view.kept ? Eigen::Matrix2d(Eigen::Matrix2d::Identity() - predicted)
-                  : Eigen::Matrix2d(Eigen::Matrix2d::Identity() + predicted);
+    judged.covariance = view.kept ? Eigen::Matrix2d(Eigen::Matrix2d::Identity() - predicted)
+                                  : Eigen::Matrix2d(Eigen::Matrix2d::Identity() + predicted);
   }
 
   const Adjustment& a_;

@@ -1,8 +1,10 @@
 #pragma once
-// Which kind of model a camera gets: the simplest that foretells dots it was not fitted to as well
-// as the best does, within the noise.
+// Which kind of model each camera gets: the simplest that foretells views it was not fitted to as
+// well as the best does, within the noise. All cameras are adjusted together for that, so that a
+// dot whose view is left out is known from other cameras better than from its survey.
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,31 +21,32 @@ std::vector<LensKind> candidates(ModelKind kind);
 ModelKind kind_of(const LensKind& kind);
 std::string words_of(const LensKind& kind);
 
-// What the choice needs beyond one camera.
-struct ChoiceSetup {
-  std::span<const AdjustedDot> dots;  // as surveyed
-  std::size_t folds = 10;
-  std::uint64_t seed = 0;
-};
-
 struct TriedKind {
   LensKind kind;
-  double holdout_rms_px = 0.0;  // of left-out dots, the far ones cut; infinite: does not work
-  double loss = 0.0;            // mean over dots, squared sigmas
+  double holdout_rms_px = 0.0;  // of left-out views, the far ones cut; infinite: does not work
   bool chosen = false;
 };
 
 struct Choice {
-  LensKind kind;
-  NumberedCamera camera;  // fitted to all its views, alone
-  std::vector<TriedKind> tried;
+  AdjustedCamera camera;
+  std::vector<TriedKind> tried;  // empty where there was no choice
 };
 
-// Nothing if no candidate can be fitted.
-std::optional<Choice> choose(const StartedCamera& camera, std::span<const View> views,
-                             std::span<const LensKind> kinds, const ChoiceSetup& setup);
+struct ChoiceSetup {
+  std::span<const CameraViews> views;
+  std::span<const StartedCamera> cameras;
+  std::span<const AdjustedDot> dots;  // as surveyed
+  CalibrationOptions options;
+  // How far it is, 0 to 1, by the thread that called; false: give up.
+  std::function<bool(double)> go_on;
+};
+
+// Of each camera. Errors name the camera that no candidate fits.
+Result<std::vector<Choice>> choose(const ChoiceSetup& setup);
 
 // Which fold a dot is in: neighbours in the file are in different ones.
-inline std::size_t fold_of(std::size_t dot, std::size_t folds) { return dot % folds; }
+inline std::size_t fold_of(std::size_t dot, std::size_t folds) {
+  return dot % folds;
+}
 
 }  // namespace dottrack::calibrate

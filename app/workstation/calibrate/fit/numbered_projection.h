@@ -59,8 +59,8 @@ bool entry_angle(const T& zeta, const T& length, const T& e0, const T& e1, T& th
     const T cosine = cos(theta);
     const T e = e0 + theta * theta * e1;
     const T excess = zeta * sine - length * cosine - (theta - sine) * e;
-    const T slope = zeta * cosine + length * sine - (T(1.0) - cosine) * e -
-                    (theta - sine) * (2.0 * theta * e1);
+    const T slope =
+        zeta * cosine + length * sine - (T(1.0) - cosine) * e - (theta - sine) * (2.0 * theta * e1);
     if (!(slope > T(0.0))) return false;
     const T step = excess / slope;
     theta -= step;
@@ -117,8 +117,7 @@ bool project_numbered(const CameraFrame& frame, const LensKind& kind, const T* n
   const Three<T> own = turned(n + kTurn, in_frame);
   Three<T> bent = own;
   if (kind.form == LensForm::radial && !bend_radially(n, own, bent)) return false;
-  if (kind.form == LensForm::pupil &&
-      !bend_with_pupil(frame, kind.linearity, n, own, bent)) {
+  if (kind.form == LensForm::pupil && !bend_with_pupil(frame, kind.linearity, n, own, bent)) {
     return false;
   }
   if (!(bent.z() > T(0.0))) return false;

@@ -7,7 +7,8 @@
 
 namespace dottrack::calibrate {
 
-// Calls work(0) ... work(count - 1), each once, in any order. threads 0: as many as the machine has.
+// Calls work(0) ... work(count - 1), each once, in any order. threads 0: as many as the machine
+// has.
 void for_each_index(std::size_t count, unsigned threads,
                     const std::function<void(std::size_t)>& work);
 

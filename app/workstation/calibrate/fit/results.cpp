@@ -33,7 +33,9 @@ class Rms {
   std::size_t count_ = 0;
 };
 
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+double cross(const Vector2d& a, const Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 std::vector<Vector2d> hull_of(std::vector<Vector2d> points) {
   std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
@@ -98,22 +100,25 @@ void remark_on_numbers(const AdjustedCamera& c, const Square& covariance,
         "px)",
         px * c.priors.sigma[kCentre]));
   }
-  if (held(kAspect, 1)) remarks.emplace_back("the dots hardly tell its pixels' shape: taken square");
+  if (held(kAspect, 1))
+    remarks.emplace_back("the dots hardly tell its pixels' shape: taken square");
   if (held(kScale, 1)) {
     remarks.emplace_back(
         "its dots are in one plane that it looks at straight on: focal length held at that of the "
         "approximate model");
   }
   if (held(kAxis, 2)) {
-    remarks.emplace_back("the dots hardly tell its lens's axis: held near the image plane's normal");
+    remarks.emplace_back(
+        "the dots hardly tell its lens's axis: held near the image plane's normal");
   }
 }
 
 void remark_on_model(const CameraCalibration& c, std::vector<std::string>& remarks) {
   if (c.coverage < kPoorCoverage) {
-    remarks.push_back(fmt::format("its dots fill only {:.0f} % of the image: outside of them the "
-                                  "model is extrapolated",
-                                  100.0 * c.coverage));
+    remarks.push_back(
+        fmt::format("its dots fill only {:.0f} % of the image: outside of them the "
+                    "model is extrapolated",
+                    100.0 * c.coverage));
   }
   for (const double x : {0.0, c.width_px - 1.0}) {
     for (const double y : {0.0, c.height_px - 1.0}) {

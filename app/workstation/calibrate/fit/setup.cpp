@@ -37,9 +37,10 @@ bool sees_all(const geometry::CameraModel& model, std::span<const Vector3d> poin
 
 Result<StartedCamera> started(std::span<const SurveyedDot> dots, const CameraViews& views) {
   if (views.observations.size() < kFewestDots) {
-    return fail(fmt::format("camera {}: {} dots are seen and labelled, at least {} are needed; {} "
-                            "or more, spread over the image and in depth, are better",
-                            views.name, views.observations.size(), kFewestDots, 20));
+    return fail(
+        fmt::format("camera {}: {} dots are seen and labelled, at least {} are needed; {} "
+                    "or more, spread over the image and in depth, are better",
+                    views.name, views.observations.size(), kFewestDots, 20));
   }
   std::vector<Vector3d> points;
   std::vector<Vector2d> pixels;
@@ -56,14 +57,16 @@ Result<StartedCamera> started(std::span<const SurveyedDot> dots, const CameraVie
     camera.start = *views.approximate;
     camera.hold_scale = true;
   } else if (camera.flat) {
-    return fail(fmt::format("camera {}: its {} dots are in one plane that it looks at straight on: "
-                            "distance and focal length cannot be told apart; add dots off that "
-                            "plane, tilt it, or give an approximate model",
-                            views.name, points.size()));
+    return fail(
+        fmt::format("camera {}: its {} dots are in one plane that it looks at straight on: "
+                    "distance and focal length cannot be told apart; add dots off that "
+                    "plane, tilt it, or give an approximate model",
+                    views.name, points.size()));
   } else {
-    return fail(fmt::format("camera {}: its {} dots do not determine a camera: they are on a line, "
-                            "or their labels are wrong",
-                            views.name, points.size()));
+    return fail(
+        fmt::format("camera {}: its {} dots do not determine a camera: they are on a line, "
+                    "or their labels are wrong",
+                    views.name, points.size()));
   }
   camera.distance_m = median_distance_m(points, geometry::centre(camera.start));
   return camera;
@@ -83,9 +86,10 @@ Result<void> check_handedness(std::span<const CameraViews> views,
         "every camera sees the dots mirrored: their coordinates are left-handed; exchange two of "
         "the axes or change the sign of one");
   }
-  return fail(fmt::format("camera {}: sees the dots mirrored, the other cameras do not: its images "
-                          "are mirrored, or its dots wrongly labelled",
-                          names));
+  return fail(
+      fmt::format("camera {}: sees the dots mirrored, the other cameras do not: its images "
+                  "are mirrored, or its dots wrongly labelled",
+                  names));
 }
 
 AdjustedCamera prepared(const StartedCamera& camera, const LensKind& kind, std::uint64_t seed) {

@@ -7,6 +7,7 @@
 
 #include "app/core/image/dot_centre.h"
 #include "app/core/image/identify.h"
+#include "app/workstation/calibrate/labelling/disc_fit.h"
 
 namespace dottrack::calibrate {
 namespace {
@@ -15,6 +16,7 @@ constexpr int kSmallBackground_px = 21;
 constexpr double kSmallDot_px = 12.0;   // that the small background suits
 constexpr double kDotsPerSurround = 4;  // width of a background to that of its dots
 constexpr int kTile_px = 256;
+constexpr double kUnsure_px = 0.3;  // sigma of a centre that its rim does not tell
 
 struct Scale {
   int background_px;
@@ -92,7 +94,7 @@ class Finder {
       : image_(image), options_(options), noise_dn_(noise_dn(image)) {}
 
   void search(const Scale& scale) {
-    const int margin = 2 * static_cast<int>(scale.max_px) + 2;
+    const int margin = static_cast<int>(scale.max_px) + scale.background_px;
     for (int y = 0; y < image_.height_px; y += kTile_px) {
       for (int x = 0; x < image_.width_px; x += kTile_px) search_tile(scale, x, y, margin);
     }
@@ -105,10 +107,19 @@ class Finder {
     const image::Band band{.min_contrast_dn = options_.min_contrast_dn,
                            .background_px = scale.background_px,
                            .polarity = options_.polarity};
-    const image::Window window{x - margin, y - margin, x + kTile_px - 1 + margin,
-                               y + kTile_px - 1 + margin};
-    identifier_.identify(image_, window, band, gate_of(scale), *regions_);
-    for (const image::Region& region : *regions_) {
+    const int x_first = std::max(x - margin, 0);
+    const int y_first = std::max(y - margin, 0);
+    const ImageView crop{image_.row(y_first) + x_first,
+                         std::min(x + kTile_px + margin, image_.width_px) - x_first,
+                         std::min(y + kTile_px + margin, image_.height_px) - y_first,
+                         image_.stride_bytes};
+    identifier_.identify(crop, band, gate_of(scale), *regions_);
+    for (image::Region region : *regions_) {
+      region.centroid_px += Eigen::Vector2d(x_first, y_first);
+      region.x_min = static_cast<std::int16_t>(region.x_min + x_first);
+      region.x_max = static_cast<std::int16_t>(region.x_max + x_first);
+      region.y_min = static_cast<std::int16_t>(region.y_min + y_first);
+      region.y_max = static_cast<std::int16_t>(region.y_max + y_first);
       const bool here = region.centroid_px.x() >= x - 0.5 && region.centroid_px.y() >= y - 0.5 &&
                         region.centroid_px.x() < x + kTile_px - 0.5 &&
                         region.centroid_px.y() < y + kTile_px - 0.5;
@@ -137,7 +148,25 @@ class Finder {
     blob.contrast_dn = region.core_contrast_dn + options_.min_contrast_dn;
     blob.sigma_px = centre_sigma_px(noise_dn_, blob.contrast_dn,
                                     region.semi_major_px + region.semi_minor_px);
+    refine(blob);
     return blob;
+  }
+
+  void refine(Blob& blob) const {
+    constexpr double kLeastSigma_px = 0.02;
+    const double towards = options_.polarity == core::Polarity::bright ? 1.0 : -1.0;
+    const auto disc = fit_disc(image_, {blob.pixel, blob.semi_major_px, blob.semi_minor_px,
+                                        blob.angle_rad, towards * blob.contrast_dn, 0.0});
+    if (!disc) {
+      blob.sigma_px = std::max(blob.sigma_px, kUnsure_px);
+      return;
+    }
+    blob.pixel = disc->centre;
+    blob.semi_major_px = disc->semi_major_px;
+    blob.semi_minor_px = disc->semi_minor_px;
+    blob.angle_rad = disc->angle_rad;
+    blob.contrast_dn = std::abs(disc->contrast_dn);
+    blob.sigma_px = std::max(disc->sigma_px, kLeastSigma_px);
   }
 
   const ImageView& image_;

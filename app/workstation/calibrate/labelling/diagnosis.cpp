@@ -54,7 +54,7 @@ Survey scaled(std::span<const SurveyedDot> dots, double factor) {
   Survey survey(dots.begin(), dots.end());
   for (SurveyedDot& dot : survey) {
     dot.position_m *= factor;
-    dot.diameter_m *= factor;
+    dot.diameter_m = 0.0;  // may be in another unit again
   }
   return survey;
 }
@@ -266,6 +266,22 @@ std::optional<std::string> why_unbelievable(std::span<const SurveyedDot> dots,
     }
   }
   return std::nullopt;
+}
+
+std::optional<std::string> looks_mirrored(std::span<const SurveyedDot> dots,
+                                          const std::vector<CameraInput>& inputs,
+                                          const std::vector<LabelledCamera>& cameras) {
+  for (const CameraInput& input : inputs) {
+    if (guessed(input) || !input.seeds.empty()) return std::nullopt;
+  }
+  const LabelledCamera& first = cameras.front();
+  const Survey survey = mirrored(dots, 0);
+  const auto in_mirror = unguided(with_dots(first.scene, survey));
+  const bool alike = !in_mirror.empty() &&
+                     in_mirror.front().log_odds > 0.95 * first.labellings.front().log_odds;
+  if (!alike) return std::nullopt;
+  return "the dots look the same in a mirror, so that they cannot tell whether the survey is "
+         "right-handed: check that, or give --seeds or --models";
 }
 
 }  // namespace dottrack::calibrate

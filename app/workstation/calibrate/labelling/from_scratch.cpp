@@ -9,10 +9,17 @@
 namespace dottrack::calibrate {
 namespace {
 
-constexpr std::size_t kSightingsAKind = 30;
+constexpr std::size_t kSightingsAKind = 60;
 constexpr std::size_t kKinds = 400;
 constexpr std::size_t kMostGrown = 600;
+constexpr std::size_t kGrownAfterFirst = 300;  // a finer grid may look like a part of itself
 constexpr double kLikeMargin = 12.0;
+constexpr double kWorthwhile = 20.0;  // log odds
+
+// Nothing better can come.
+bool nearly_all(const Growth& growth) {
+  return 5 * growth.labelled > 4 * growth.expected && 5 * growth.expected > growth.labels.size();
+}
 
 }  // namespace
 
@@ -20,21 +27,28 @@ std::vector<Growth> labels_from_scratch(const Scene& scene, const SurveyIndex& s
                                         const SketchPrior& prior) {
   constexpr double kPatchScale_px = 1.0;
   const std::vector<PatchKind> kinds = patch_kinds(scene, survey);
-  std::size_t grown = 0;
-  for (std::size_t k = 0; k < std::min(kKinds, kinds.size()) && grown < kMostGrown; ++k) {
+  std::vector<Growth> best;
+  std::size_t left = kMostGrown;
+  for (std::size_t k = 0; k < std::min(kKinds, kinds.size()) && left > 0; ++k) {
     for (const Sighting& sighting : sightings(scene, kinds[k], kSightingsAKind)) {
       const Pairs pairs = pairs_of(scene, sighting.labels);
       for (const SketchFit& fit : sketches(pairs.points, pairs.pixels, prior, kPatchScale_px, 2)) {
         const Growth growth = grow(scene, survey, fit.sketch, prior, sighting.labels);
-        ++grown;
-        if (growth.labelled < kLeastToTell || growth.log_odds < 20.0) continue;
+        if (left > 0) --left;
+        if (growth.labelled < kLeastToTell || growth.log_odds < kWorthwhile) continue;
+        if (!best.empty() && growth.log_odds < 0.2 * best.front().log_odds) continue;
         std::vector<Growth> all = likenesses(scene, survey, prior, kinds, growth, kLikeMargin);
-        if (convincing(scene, all.front())) return all;
+        if (!convincing(scene, all.front())) continue;
+        if (nearly_all(all.front())) return all;
+        if (best.empty() || all.front().log_odds > best.front().log_odds) {
+          if (best.empty()) left = std::min(left, kGrownAfterFirst);
+          best = std::move(all);
+        }
       }
-      if (grown >= kMostGrown) break;
+      if (left == 0) break;
     }
   }
-  return {};
+  return best;
 }
 
 }  // namespace dottrack::calibrate

@@ -200,7 +200,9 @@ void judge(const Scene& scene, Growth& growth) {
 bool convincing(const Scene& scene, const Growth& growth) {
   const double hypotheses =
       static_cast<double>(scene.dots.size()) * static_cast<double>(scene.blobs.size()) * 1e3;
-  return growth.labelled >= kLeastToTell && growth.log_odds > 10.0 + std::log(hypotheses) &&
+  constexpr double kNarrowest = 40.0;  // focal length in widths: a lens of 1.4 degrees
+  return growth.labelled >= kLeastToTell &&
+         growth.sketch.focal_px < kNarrowest * scene.width_px && growth.log_odds > 10.0 + std::log(hypotheses) &&
          2 * growth.labelled > growth.expected;
 }
 

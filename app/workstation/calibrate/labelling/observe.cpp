@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <mutex>
+#include <utility>
 
 #include "app/config/complaint.h"
 #include "app/workstation/calibrate/fit/parallel.h"
@@ -70,6 +72,18 @@ class Labeller {
   std::size_t done_ = 0;
 };
 
+constexpr double kUnsure = 3.0;  // times as unsure as the others: a glint, a scratch across the rim
+
+double median_sigma_px(const Scene& scene, const Labels& labels) {
+  std::vector<double> sigmas;
+  for (const int blob : labels) {
+    if (blob != kNoBlob) sigmas.push_back(scene.blobs[static_cast<std::size_t>(blob)].sigma_px);
+  }
+  const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
+  std::nth_element(sigmas.begin(), middle, sigmas.end());
+  return *middle;
+}
+
 CameraViews views_of(const CameraInput& input, const LabelledCamera& camera) {
   CameraViews views;
   views.name = input.pictures.name;
@@ -79,9 +93,11 @@ CameraViews views_of(const CameraInput& input, const LabelledCamera& camera) {
   const Growth& growth = camera.labellings.front();
   const SurveyIndex survey(camera.scene.dots, camera.scene.dot_layer);
   views.approximate = as_cahvor(growth.sketch);
+  const double unsure_px = kUnsure * median_sigma_px(camera.scene, growth.labels);
   for (std::size_t i = 0; i < growth.labels.size(); ++i) {
     if (growth.labels[i] == kNoBlob) continue;
     const Blob& blob = camera.scene.blobs[static_cast<std::size_t>(growth.labels[i])];
+    if (blob.sigma_px > unsure_px) continue;
     const Eigen::Vector2d off =
         eccentricity_px(camera.scene, survey, growth, static_cast<int>(i));
     views.observations.push_back({i, blob.pixel - off, blob.sigma_px});
@@ -111,6 +127,9 @@ Result<Observed> observe(std::span<const SurveyedDot> dots, const std::vector<Ca
   if (const auto wrong = why_unbelievable(dots, inputs, cameras)) return fail(*wrong);
   Observed observed;
   observed.remarks = std::move(*remarks);
+  if (const auto remark = looks_mirrored(dots, inputs, cameras)) {
+    observed.remarks.push_back(*remark);
+  }
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     observed.views.push_back(views_of(inputs[c], cameras[c]));
   }

@@ -13,7 +13,8 @@ namespace dottrack::calibrate {
 namespace {
 
 constexpr std::size_t kNearDots = 8;    // neighbours a patch is spanned by
-constexpr std::size_t kNearBlobs = 10;  // of a blob
+constexpr std::size_t kNearBlobs = 14;  // of a blob
+constexpr std::size_t kOfASize = 5;
 constexpr std::size_t kMinOthers = 2;
 constexpr double kOffPlane = 0.03;      // of the patch's size
 constexpr double kMinSine = 0.35;       // of the angle at the patch's dot
@@ -145,7 +146,11 @@ class Sighter {
   void keep(int blob, int first, int second,
             const std::array<int, SurveyIndex::kNeighbours>& blobs, double odds,
             std::vector<Sighting>& found) const {
-    Sighting sighting{Labels(scene_.dots.size(), kNoBlob), odds};
+    Eigen::Matrix2d sides;
+    sides << blob_at(first).pixel - blob_at(blob).pixel, blob_at(second).pixel - blob_at(blob).pixel;
+    const int size = static_cast<int>(
+        std::floor(4.0 * std::log2(std::abs((sides * to_sides_).determinant()))));
+    Sighting sighting{Labels(scene_.dots.size(), kNoBlob), odds, size};
     const auto label = [&](int dot, int b) {
       if (b < 0) return;
       if (std::find(sighting.labels.begin(), sighting.labels.end(), b) == sighting.labels.end()) {
@@ -170,7 +175,14 @@ void keep_best(std::vector<Sighting>& found, std::size_t most) {
   std::stable_sort(found.begin(), found.end(), [](const Sighting& a, const Sighting& b) {
     return a.log_odds > b.log_odds;
   });
-  if (found.size() > most) found.resize(most);
+  std::map<int, std::size_t> of_size;
+  std::vector<Sighting> kept;
+  for (Sighting& sighting : found) {
+    if (kept.size() < most && of_size[sighting.size]++ < kOfASize) {
+      kept.push_back(std::move(sighting));
+    }
+  }
+  found = std::move(kept);
 }
 
 }  // namespace
@@ -209,7 +221,7 @@ std::vector<Sighting> sightings(const Scene& scene, const PatchKind& kind, std::
   for (std::size_t b = 0; b < scene.blobs.size(); ++b) {
     if (scene.index.layer_of(static_cast<int>(b)) != layer) continue;
     sighter.look_around(static_cast<int>(b), found);
-    if (found.size() > 8 * most) keep_best(found, most);
+    if (found.size() > 100 * most) keep_best(found, most);
   }
   keep_best(found, most);
   return found;

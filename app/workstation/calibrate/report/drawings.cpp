@@ -15,8 +15,8 @@ using Eigen::Vector2d;
 
 constexpr double kPictureWidth = 460.0;
 constexpr double kMapWidth = 760.0;
-constexpr double kArrow = 26.0;       // length of one of nine tenths of the arrows, at most
-constexpr double kLongest = 120.0;    // of any arrow
+constexpr double kArrow = 26.0;     // length of one of nine tenths of the arrows, at most
+constexpr double kLongest = 120.0;  // of any arrow
 constexpr const char* kUsed = "#1f5fa8";
 constexpr const char* kSuspect = "#e08a00";
 constexpr const char* kLeftOut = "#c8201f";

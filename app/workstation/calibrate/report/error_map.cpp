@@ -117,7 +117,8 @@ ErrorMap error_map(const Calibration& calibration, std::span<const SurveyedDot> 
   map.low_m = low;
   map.step_m = longer / static_cast<double>(kCells);
   const auto cells = [&](double length) {
-    return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(length / map.step_m - 1e-9)));
+    return std::max<std::size_t>(1,
+                                 static_cast<std::size_t>(std::ceil(length / map.step_m - 1e-9)));
   };
   map.columns = cells(high.x() - low.x());
   map.rows = cells(high.y() - low.y());

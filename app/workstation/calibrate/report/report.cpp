@@ -20,7 +20,9 @@ constexpr const char* kStyle =
     ".cameras{display:flex;flex-wrap:wrap;gap:24px}.camera{width:470px}"
     ".remark{color:#8a5200}h2{margin-top:34px}h3{margin-bottom:4px}.chosen{font-weight:bold}";
 
-double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
+double degrees(double radians) {
+  return radians * 180.0 / std::numbers::pi;
+}
 
 std::string list_of(const std::vector<std::string>& remarks) {
   if (remarks.empty()) return "";
@@ -128,7 +130,8 @@ std::string map_part(const Calibration& calibration, std::span<const SurveyedDot
   const ErrorMap map = error_map(calibration, dots, height_m);
   if (map.worst_m() <= 0.0) return "<p>No place is seen by two cameras.</p>\n";
   return fmt::format(
-      "<p>A dot {:.3g} m high, seen by all cameras that have it in their image: median {}, worst {}. "
+      "<p>A dot {:.3g} m high, seen by all cameras that have it in their image: median {}, worst "
+      "{}. "
       "Noise of the images and uncertainty of the models; what the survey as a whole is off comes "
       "on top. Grey: fewer than two cameras.</p>\n{}",
       height_m, length_words(map.median_m()), length_words(map.worst_m()),
@@ -146,13 +149,15 @@ std::string report_html(const Calibration& calibration, std::span<const Surveyed
   out += summary(calibration, dots) + list_of(request.remarks);
   out += "<h2>Cameras</h2>\n" + camera_rows(calibration);
   out += "<h2>Uncertainty</h2>\n<p>One standard deviation.</p>\n" + sigma_rows(calibration);
-  out += "<h2>Suspect dots</h2>\n<p>Surveyed elsewhere than the cameras see them; their surveyed "
-         "places were not used.</p>\n" +
-         suspect_rows(calibration);
+  out +=
+      "<h2>Suspect dots</h2>\n<p>Surveyed elsewhere than the cameras see them; their surveyed "
+      "places were not used.</p>\n" +
+      suspect_rows(calibration);
   out += "<h2>Expected error in space</h2>\n" + map_part(calibration, dots, request);
-  out += "<h2>Residuals</h2>\n<p>From where each dot was seen to where its surveyed place would "
-         "show. Red: left out; orange: suspect dot. Green: the part of the image that dots fill.</p>"
-         "\n<div class='cameras'>\n";
+  out +=
+      "<h2>Residuals</h2>\n<p>From where each dot was seen to where its surveyed place would "
+      "show. Red: left out; orange: suspect dot. Green: the part of the image that dots fill.</p>"
+      "\n<div class='cameras'>\n";
   for (const CameraCalibration& c : calibration.cameras) out += camera_part(c, calibration);
   return out + "</div>\n</body>\n</html>\n";
 }

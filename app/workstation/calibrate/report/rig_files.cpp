@@ -76,8 +76,8 @@ std::string quoted(const std::string& name) {
 
 std::string target_table(const std::optional<std::filesystem::path>& target) {
   if (target) {
-    return fmt::format("\n[target]\nname = \"{}\"\ndots = \"{}\"\n", quoted(target->stem().string()),
-                       quoted(target->filename().string()));
+    return fmt::format("\n[target]\nname = \"{}\"\ndots = \"{}\"\n",
+                       quoted(target->stem().string()), quoted(target->filename().string()));
   }
   return "\n# What is tracked: name the file with its dots in vehicle coordinates, and take the\n"
          "# comment signs away.\n# [target]\n# name = \"vehicle\"\n# dots = \"target.csv\"\n";
@@ -87,9 +87,9 @@ std::string target_table(const std::optional<std::filesystem::path>& target) {
 
 Result<std::vector<RigFile>> rig_files(const Calibration& calibration, const RigRequest& request) {
   std::vector<RigFile> files;
-  std::string rig = request.target
-                        ? "# Written by dottrack calibrate.\n"
-                        : "# Written by dottrack calibrate. Not complete: it has no [target] yet.\n";
+  std::string rig =
+      request.target ? "# Written by dottrack calibrate.\n"
+                     : "# Written by dottrack calibrate. Not complete: it has no [target] yet.\n";
   rig += fmt::format("[rig]\nname = \"{}\"\n", quoted(request.name));
   for (const CameraCalibration& c : calibration.cameras) {
     config::CameraFile file;
@@ -105,8 +105,8 @@ Result<std::vector<RigFile>> rig_files(const Calibration& calibration, const Rig
   if (!request.target) return files;
   std::ifstream in(*request.target, std::ios::binary);
   if (!in) return fail(fmt::format("{}: cannot be read", request.target->string()));
-  files.push_back({request.target->filename().string(),
-                   std::string(std::istreambuf_iterator<char>(in), {})});
+  files.push_back(
+      {request.target->filename().string(), std::string(std::istreambuf_iterator<char>(in), {})});
   return files;
 }
 

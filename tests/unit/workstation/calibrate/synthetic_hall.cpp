@@ -31,7 +31,7 @@ class Random {
 };
 
 // On the floor, on boxes up to 1.5 m, on the walls.
-Vector3d place_of_dot(Random& random) {
+Vector3d place_in_hall(Random& random) {
   const double x = random.uniform(-0.5, 0.5) * kLength_m;
   const double y = random.uniform(-0.5, 0.5) * kWidth_m;
   const double kind = random.uniform(0.0, 1.0);
@@ -43,22 +43,32 @@ Vector3d place_of_dot(Random& random) {
   return {side * kLength_m, y, z};
 }
 
+Vector3d place_of_dot(const HallOptions& options, Random& random) {
+  return options.extent * place_in_hall(random);
+}
+
 geometry::CameraModel camera(std::size_t i, const HallOptions& options, Random& random) {
   const double around = 2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) /
                         static_cast<double>(options.cameras);
   const Vector3d from(0.48 * kLength_m * std::cos(around), 0.48 * kWidth_m * std::sin(around),
                       kHeight_m + random.uniform(-0.2, 0.2));
-  const Vector3d at(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(0.0, 0.6));
+  const Vector3d at =
+      options.extent *
+      Vector3d(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(0.0, 0.6));
   const Vector3d a = (at - from).normalized();
   const Vector3d right = a.cross(Vector3d::UnitZ()).normalized();
   const double focal = options.focal_px * random.uniform(0.98, 1.02);
-  const double hc = 0.5 * (kHallColumns - 1) + random.uniform(-15.0, 15.0);
-  const double vc = 0.5 * (kHallRows - 1) + random.uniform(-15.0, 15.0);
+  const double hc = 0.5 * (kHallColumns - 1) + random.uniform(-6.0, 6.0);
+  const double vc = 0.5 * (kHallRows - 1) + random.uniform(-6.0, 6.0);
+  const Vector3d down = a.cross(right);
+  const double vs = focal * (1.0 + options.aspect * random.uniform(-1.0, 1.0));
+  const Vector3d o =
+      a + options.axis * (random.uniform(-1.0, 1.0) * right + random.uniform(-1.0, 1.0) * down);
   return geometry::Cahvor{from,
                           a,
                           focal * right + hc * a,
-                          focal * a.cross(right) + vc * a,
-                          a,
+                          vs * down + vc * a,
+                          o.normalized(),
                           {0.0, options.radial.x(), options.radial.y()}};
 }
 
@@ -76,7 +86,7 @@ Hall make_hall(const HallOptions& options) {
     hall.truths.push_back(camera(i, options, random));
   }
   for (std::size_t j = 0; j < options.dots; ++j) {
-    hall.places_m.push_back(place_of_dot(random));
+    hall.places_m.push_back(place_of_dot(options, random));
     calibrate::SurveyedDot dot;
     dot.name = "dot" + std::to_string(j + 1);
     const Vector3d error(random.normal(), random.normal(), random.normal());
@@ -98,7 +108,7 @@ Hall make_hall(const HallOptions& options) {
     }
     hall.views.push_back(views);
   }
-  for (int j = 0; j < 400; ++j) hall.unseen_m.push_back(place_of_dot(random));
+  for (int j = 0; j < 400; ++j) hall.unseen_m.push_back(place_of_dot(options, random));
   return hall;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// A hall with cameras under its ceiling and surveyed dots on its floor, walls and boxes, as numbers.
+// A hall with cameras under its ceiling and surveyed dots on its floor, walls and boxes, as
+// numbers.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -19,8 +20,11 @@ struct HallOptions {
   double claimed_sigma_m = 0.001;  // what the file says
   double image_sigma_px = 0.05;
   double claimed_image_sigma_px = 0.1;
-  double focal_px = 700.0;
+  double extent = 1.0;      // of the part of the hall in which the dots are and cameras look
+  double focal_px = 460.0;  // 70 degrees
   Eigen::Vector2d radial{-0.12, 0.02};  // r1, r2
+  double aspect = 0.002;                // pixels are this far from square, at most
+  double axis = 0.008;                  // and the lens's axis this far from A, each way
   std::uint64_t seed = 1;
 };
 
@@ -32,8 +36,8 @@ struct Hall {
   std::vector<Eigen::Vector3d> unseen_m;  // places that no dot is at
 };
 
-inline constexpr int kHallColumns = 1280;
-inline constexpr int kHallRows = 960;
+inline constexpr int kHallColumns = 640;
+inline constexpr int kHallRows = 480;
 
 Hall make_hall(const HallOptions& options);
 

@@ -1,0 +1,108 @@
+// What twelve cameras and sixty dots surveyed to a millimetre reach, over twenty halls.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "app/config/camera_internal.h"
+#include "app/workstation/calibrate/fit/calibration.h"
+#include "tests/unit/workstation/calibrate/synthetic_hall.h"
+
+namespace dottrack::calibrate {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::uint64_t kSeeds = 20;
+
+// Squared sigmas of a camera's place and of where it points.
+struct Off {
+  double place = 0.0;     // of 3
+  double pointing = 0.0;  // of 2
+};
+
+Off off(const CameraCalibration& c, const geometry::CameraModel& truth) {
+  const geometry::Cahv t = config::linear_part(truth);
+  const geometry::Cahv m = config::linear_part(c.model);
+  Off out;
+  const Vector3d place = m.c - t.c;
+  out.place = place.dot(c.covariance.topLeftCorner<3, 3>().inverse() * place);
+  const Vector3d across = t.a.unitOrthogonal();
+  Eigen::Matrix<double, 3, 2> basis;
+  basis << across, t.a.cross(across);
+  const Eigen::Vector2d turn = basis.transpose() * (m.a - t.a);
+  const Eigen::Matrix2d covariance = basis.transpose() * c.covariance.block<3, 3>(3, 3) * basis;
+  out.pointing = turn.dot(covariance.inverse() * turn);
+  return out;
+}
+
+// The normal approximation of chi-square's bounds (Wilson and Hilferty).
+double chi_square_quantile(double degrees, double z) {
+  const double part = 2.0 / (9.0 * degrees);
+  return degrees * std::pow(1.0 - part + z * std::sqrt(part), 3);
+}
+
+TEST(CalibrationStatistics, TwelveCamerasSixtyDots) {
+  double square = 0.0;
+  std::size_t points = 0;
+  double place = 0.0;
+  double pointing = 0.0;
+  std::size_t suspects = 0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    test::HallOptions options;
+    options.seed = seed;
+    const test::Hall hall = test::make_hall(options);
+    const auto found = calibrate(hall.dots, hall.views);
+    ASSERT_TRUE(found) << found.error().message;
+    for (std::size_t i = 0; i < found->cameras.size(); ++i) {
+      std::size_t count = 0;
+      const double rms = test::rms_on_unseen_px(hall, i, found->cameras[i].model, count);
+      square += rms * rms * static_cast<double>(count);
+      points += count;
+    }
+    // One camera of each hall: those of the same hall share the errors of its survey.
+    const std::size_t one = seed % found->cameras.size();
+    const Off o = off(found->cameras[one], hall.truths[one]);
+    place += o.place;
+    pointing += o.pointing;
+    suspects += found->suspects.size();
+  }
+  const double rms_px = std::sqrt(square / static_cast<double>(points));
+  RecordProperty("rms_unseen_px", std::to_string(rms_px));
+  EXPECT_GT(points, 20000U);
+  EXPECT_LE(rms_px, 0.05);
+  EXPECT_EQ(suspects, 0U);
+  EXPECT_GT(place, chi_square_quantile(3.0 * kSeeds, -1.96));
+  EXPECT_LT(place, chi_square_quantile(3.0 * kSeeds, 1.96));
+  EXPECT_GT(pointing, chi_square_quantile(2.0 * kSeeds, -1.96));
+  EXPECT_LT(pointing, chi_square_quantile(2.0 * kSeeds, 1.96));
+}
+
+TEST(CalibrationStatistics, ThreeWronglySurveyedDotsOfSixtyAreNamed) {
+  std::size_t seen = 0;
+  std::size_t named = 0;
+  std::size_t false_alarms = 0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    test::HallOptions options;
+    options.seed = seed;
+    test::Hall hall = test::make_hall(options);
+    const std::set<std::size_t> wrong{5, 23, 47};
+    hall.dots[5].position_m.x() += 0.015;
+    hall.dots[23].position_m.y() -= 0.02;
+    hall.dots[47].position_m.z() += 0.03;
+    const auto found = calibrate(hall.dots, hall.views);
+    ASSERT_TRUE(found) << found.error().message;
+    for (const std::size_t dot : wrong) seen += found->dots[dot].views >= 2 ? 1U : 0U;
+    for (const SuspectDot& s : found->suspects) (wrong.contains(s.dot) ? named : false_alarms)++;
+  }
+  EXPECT_GE(seen, 3 * kSeeds - 3);
+  EXPECT_EQ(named, seen);
+  EXPECT_EQ(false_alarms, 0U);
+}
+
+}  // namespace
+}  // namespace dottrack::calibrate
