@@ -29,14 +29,14 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix26d = Eigen::Matrix<double, 2, 6>;
 
 constexpr int kRounds = 30;
-constexpr double kEnough = 1e-10;  // metres and radians
-constexpr double kHuber = 2.5;     // standard deviations; beyond, a view counts less
-constexpr double kLeastSigma_px = 1e-3;
+constexpr double kEnough = 1e-10;        // metres and radians
+constexpr double kHuber = 2.5;           // standard deviations; beyond, a view counts less
+constexpr double kLeastSigma_px = 1e-2;  // no dot is measured better
 constexpr std::size_t kFewestTicks = 10;
 constexpr std::size_t kFewestViews = 30;
-// A pose that the views leave open by more than this is little more than what is known beforehand.
-constexpr double kWorstTurnSigma_rad = 0.005;
-constexpr double kWorstShiftSigma_m = 0.008;
+// In some direction the views leave this part or more of what was known beforehand: they do not
+// determine the pose.
+constexpr double kMostLeftOpen = 0.97;
 // Neighbours in time share what is odd about their pictures, and the error of the poses.
 constexpr std::size_t kTicksTogether = 10;
 // What a knock does, standard deviations: views in a small part of a picture hardly tell a turn
@@ -201,7 +201,8 @@ class Fit {
       group.setZero();
       groups += 1.0;
     }
-    const double white = weighted2 / std::max(freedom, 1.0);
+    const double white =
+        std::max(weighted2 / std::max(freedom, 1.0), kLeastSigma_px * kLeastSigma_px);
     const Matrix6d inverse = information.inverse();
     const Matrix6d robust = groups / std::max(groups - 1.0, 1.0) * inverse * scatter * inverse;
     // In units of white noise's variances, so that metres and radians compare.
@@ -342,6 +343,14 @@ class Fit {
   double sigma_px_ = 1.0;
 };
 
+// The most that is left of a knock's variance in any direction.
+double left_open(const Matrix6d& of_pose) {
+  Vector6d scale;
+  scale << Vector3d::Constant(1.0 / kKnockTurn_rad), Vector3d::Constant(1.0 / kKnockShift_m);
+  const Matrix6d part = scale.asDiagonal() * of_pose * scale.asDiagonal();
+  return Eigen::SelfAdjointEigenSolver<Matrix6d>(part).eigenvalues().maxCoeff();
+}
+
 struct Gathered {
   std::vector<View> views;
   std::size_t ticks = 0;
@@ -399,8 +408,7 @@ Result<CameraRepair> repair_camera(const core::Rig& rig, std::size_t camera,
   const Matrix6d of_pose = fit.pose_covariance();
   repair.turn_sigma_rad = of_pose.diagonal().head<3>().cwiseSqrt();
   repair.shift_sigma_m = of_pose.diagonal().tail<3>().cwiseSqrt();
-  if (!arrived || !(repair.turn_sigma_rad.maxCoeff() < kWorstTurnSigma_rad) ||
-      !(repair.shift_sigma_m.maxCoeff() < kWorstShiftSigma_m)) {
+  if (!arrived || !(left_open(of_pose) < kMostLeftOpen)) {
     return fail(
         fmt::format("the {} views in {} ticks do not determine its pose; drive through "
                     "more of its picture, nearer and farther",
