@@ -89,8 +89,8 @@ Result<Outcome> measure(const Command& command) {
   if (!calibration) return tl::unexpected<Error>(calibration.error());
   outcome.calibration = std::move(*calibration);
   if (command.test) {
-    outcome.tested = calibrate::figures_of(outcome.dots, observed->views, outcome.calibration,
-                                           *command.test);
+    outcome.tested =
+        calibrate::figures_of(outcome.dots, observed->views, outcome.calibration, *command.test);
   }
   return outcome;
 }
@@ -103,7 +103,8 @@ Result<void> write_all(const Command& command, const Outcome& outcome) {
   if (!files) return tl::unexpected<Error>(files.error());
   calibrate::ReportRequest report;
   report.remarks = outcome.remarks;
-  files->push_back({"report.html", calibrate::report_html(outcome.calibration, outcome.dots, report)});
+  files->push_back(
+      {"report.html", calibrate::report_html(outcome.calibration, outcome.dots, report)});
   files->push_back({"residuals.csv", calibrate::residuals_csv(outcome.dots, outcome.calibration)});
   files->push_back({"report.json", calibrate::figures_json(outcome.dots, outcome.calibration,
                                                            outcome.tested, outcome.remarks)});
@@ -133,8 +134,8 @@ int run(Command command) {
   if (auto done = write_all(command, *outcome); !done) {
     return complain(done.error().message, kFailed);
   }
-  fmt::print("{}", calibrate::figures_table(outcome->calibration, outcome->tested,
-                                            outcome->remarks));
+  fmt::print("{}",
+             calibrate::figures_table(outcome->calibration, outcome->tested, outcome->remarks));
   fmt::print("results: {}; report: {}\n", command.out.string(),
              (command.out / "report.html").string());
   return kDone;
@@ -183,13 +184,15 @@ void add_fit(CLI::App& sub, Command& command) {
                                                        {"cahvor", ModelKind::cahvor},
                                                        {"cahvore", ModelKind::cahvore}};
   sub.add_option_function<std::string>(
-         "--model", [&command](const std::string& kind) { command.calibrate.kind = kKinds.at(kind); },
+         "--model",
+         [&command](const std::string& kind) { command.calibrate.kind = kKinds.at(kind); },
          "Of all cameras; auto: chosen for each by hold-out")
       ->check(CLI::IsMember({"auto", "cahv", "cahv-radial", "cahvor", "cahvore"}));
   const auto add_half = [&sub](const char* name, std::optional<Half>& half, const char* what) {
     return sub
         .add_option_function<std::string>(
-            name, [&half](const std::string& word) { half = word == "odd" ? Half::odd : Half::even; },
+            name,
+            [&half](const std::string& word) { half = word == "odd" ? Half::odd : Half::even; },
             what)
         ->check(CLI::IsMember({"odd", "even"}));
   };

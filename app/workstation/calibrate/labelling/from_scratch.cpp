@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kSightingsAKind = 60;
 constexpr std::size_t kKinds = 400;
 constexpr std::size_t kMostGrown = 600;
+constexpr std::size_t kDotsGrown = 260000;  // all in all: many dots grow slowly, and need few tries
 constexpr std::size_t kGrownAfterFirst = 300;  // a finer grid may look like a part of itself
 constexpr double kLikeMargin = 12.0;
 constexpr double kWorthwhile = 20.0;  // log odds
@@ -28,7 +29,8 @@ std::vector<Growth> labels_from_scratch(const Scene& scene, const SurveyIndex& s
   constexpr double kPatchScale_px = 1.0;
   const std::vector<PatchKind> kinds = patch_kinds(scene, survey);
   std::vector<Growth> best;
-  std::size_t left = kMostGrown;
+  std::size_t left = std::clamp<std::size_t>(
+      kDotsGrown / std::max<std::size_t>(scene.dots.size(), 1), 60, kMostGrown);
   for (std::size_t k = 0; k < std::min(kKinds, kinds.size()) && left > 0; ++k) {
     for (const Sighting& sighting : sightings(scene, kinds[k], kSightingsAKind)) {
       const Pairs pairs = pairs_of(scene, sighting.labels);

@@ -13,7 +13,8 @@ namespace dottrack::calibrate {
 namespace {
 
 struct Painted {
-  std::vector<std::uint8_t> pixels = std::vector<std::uint8_t>(static_cast<std::size_t>(40 * 40), 50);
+  std::vector<std::uint8_t> pixels =
+      std::vector<std::uint8_t>(static_cast<std::size_t>(40 * 40), 50);
   ImageView view() const { return {pixels.data(), 40, 40, 40}; }
 };
 
@@ -49,15 +50,14 @@ TEST(DiscFit, FindsTheCentreToAFewHundredthsOfAPixel) {
   EXPECT_EQ(found, 4);
 }
 
-// Twice as bright on one side as on the other: the centre of light is off, the rim is not.
+// Brighter on one side than on the other: the centre of light is off, the rim is not.
 TEST(DiscFit, IsNotDrawnToTheLight) {
   const Eigen::Vector2d centre(20.2, 19.6);
-  const Painted p = disc(centre, 4.0, [&](const Eigen::Vector2d& at) {
-    return 60.0 + 10.0 * (at.x() - centre.x());
-  });
+  const Painted p = disc(
+      centre, 4.0, [&](const Eigen::Vector2d& at) { return 60.0 + 4.0 * (at.x() - centre.x()); });
   const auto fit = fit_disc(p.view(), {{20.5, 19.5}, 4.0, 4.0, 0.0, 60.0, 0.0});
   ASSERT_TRUE(fit);
-  EXPECT_LT((fit->centre - centre).norm(), 0.25);
+  EXPECT_LT((fit->centre - centre).norm(), 0.2);
   double light = 0.0;
   double moment = 0.0;
   for (int y = 0; y < 40; ++y) {
@@ -72,7 +72,7 @@ TEST(DiscFit, IsNotDrawnToTheLight) {
 
 TEST(DiscFit, RefusesWhatIsNotThere) {
   const Painted p = disc({20.0, 20.0}, 4.0, [](const auto&) { return 100.0; });
-  EXPECT_FALSE(fit_disc(p.view(), {{3.0, 3.0}, 4.0, 4.0, 0.0, 80.0, 0.0}));   // at the border
+  EXPECT_FALSE(fit_disc(p.view(), {{3.0, 3.0}, 4.0, 4.0, 0.0, 80.0, 0.0}));    // at the border
   EXPECT_FALSE(fit_disc(p.view(), {{26.0, 26.0}, 4.0, 4.0, 0.0, 80.0, 0.0}));  // beside it
 }
 

@@ -58,8 +58,7 @@ std::vector<Vector2d> rim_of(const geometry::CameraModel& model, const SurveyedD
   for (int i = 0; i < 48; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / 48.0;
     const Vector3d at =
-        dot.position_m +
-        0.5 * dot.diameter_m * Vector3d(std::cos(angle), std::sin(angle), 0.0);
+        dot.position_m + 0.5 * dot.diameter_m * Vector3d(std::cos(angle), std::sin(angle), 0.0);
     Vector2d pixel;
     if (geometry::project(model, at, pixel) != geometry::OpticsStatus::ok) return {};
     rim.push_back(pixel);
@@ -71,8 +70,8 @@ bool holds(const std::vector<Vector2d>& rim, const Vector2d& p) {
   bool inside = false;
   for (std::size_t i = 0, j = rim.size() - 1; i < rim.size(); j = i++) {
     if ((rim[i].y() > p.y()) == (rim[j].y() > p.y())) continue;
-    const double x = rim[i].x() + (p.y() - rim[i].y()) * (rim[j].x() - rim[i].x()) /
-                                      (rim[j].y() - rim[i].y());
+    const double x =
+        rim[i].x() + (p.y() - rim[i].y()) * (rim[j].x() - rim[i].x()) / (rim[j].y() - rim[i].y());
     inside = inside != (p.x() < x);
   }
   return inside;
@@ -120,7 +119,8 @@ class Canvas {
     constexpr int kSides = 5;
     int in = 0;
     for (int i = 0; i < kSides * kSides; ++i) {
-      const Vector2d at(x - 0.5 + (i % kSides + 0.5) / kSides, y - 0.5 + (i / kSides + 0.5) / kSides);
+      const Vector2d at(x - 0.5 + (i % kSides + 0.5) / kSides,
+                        y - 0.5 + (i / kSides + 0.5) / kSides);
       in += holds(rim, at) ? 1 : 0;
     }
     return in / static_cast<double>(kSides * kSides);
@@ -162,8 +162,7 @@ PaintedHall painted_plate() {
     }
   }
   const Vector3d middle(0.02, 0.018, -0.004);
-  plate.truths.emplace_back(
-      looking({-0.06, 0.03, 0.18}, middle, Vector3d::UnitY(), 1900.0, 0.05));
+  plate.truths.emplace_back(looking({-0.06, 0.03, 0.18}, middle, Vector3d::UnitY(), 1900.0, 0.05));
   plate.truths.emplace_back(  // on its side
       looking({0.12, -0.02, 0.17}, middle, Vector3d::UnitX(), 1800.0, 0.05));
   plate.guesses = plate.truths;
@@ -195,8 +194,7 @@ Right right_ones(const PaintedHall& hall, std::size_t camera, const calibrate::C
   Right right;
   for (const calibrate::Observation& o : views.observations) {
     Vector2d pixel;
-    const auto status =
-        geometry::project(hall.truths[camera], hall.dots[o.dot].position_m, pixel);
+    const auto status = geometry::project(hall.truths[camera], hall.dots[o.dot].position_m, pixel);
     const bool near = status == geometry::OpticsStatus::ok && (pixel - o.pixel).norm() < within_px;
     right.right += near ? 1U : 0U;
     ++right.all;

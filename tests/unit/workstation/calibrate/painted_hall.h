@@ -1,5 +1,6 @@
 #pragma once
-// Pictures of surveyed dots, painted: flat discs on a floor and on boxes, and some that are no dots.
+// Pictures of surveyed dots, painted: flat discs on a floor and on boxes, and some that are no
+// dots.
 
 #include <filesystem>
 #include <vector>
