@@ -23,7 +23,7 @@ class Progress {
   explicit Progress(const CalibrationOptions& options) : options_(options) {}
 
   bool at(double part, const std::string& what) {
-    const bool ask = options_.progress && std::this_thread::get_id() == asker_;
+    const bool ask = !stopped_ && options_.progress && std::this_thread::get_id() == asker_;
     if (ask && !options_.progress(part, what)) stopped_ = true;
     return !stopped_;
   }

@@ -10,6 +10,7 @@
 
 #include "app/workstation/calibrate/fit/chi_square.h"
 #include "app/workstation/calibrate/fit/editing.h"
+#include "app/workstation/calibrate/fit/foretelling.h"
 #include "app/workstation/calibrate/fit/lone_fit.h"
 #include "app/workstation/calibrate/fit/parallel.h"
 
@@ -19,7 +20,6 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-constexpr double kCutSigmas2 = 16.0;         // a view that is further off counts as this far
 constexpr double kCoordinatesANumber = 1.5;  // fewest, of what a model is fitted to
 constexpr double kWithinNoise = 0.5;         // standard errors that a simpler model may be worse by
 constexpr double kPupilGain = 0.93;     // of the residuals of a camera alone, to try a moving pupil
@@ -30,49 +30,6 @@ constexpr std::size_t kFolds = 5;
 
 bool enough(const LensKind& kind, std::size_t views) {
   return 2.0 * static_cast<double>(views) >= kCoordinatesANumber * count_free(kind);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// What a kind foretells of one camera's views, in their order.
-struct Foretelling {
-  std::vector<double> sigmas2;
-  std::vector<double> off2_px;
-};
-
-// How much worse, on average over the views, and how sure that is.
-struct Comparison {
-  double mean = 0.0;
-  double error = 0.0;
-};
-
-Comparison compare(const Foretelling& a, const Foretelling& b) {
-  const auto n = static_cast<double>(a.sigmas2.size());
-  double sum = 0.0;
-  double square = 0.0;
-  for (std::size_t i = 0; i < a.sigmas2.size(); ++i) {
-    const double difference =
-        std::min(a.sigmas2[i], kCutSigmas2) - std::min(b.sigmas2[i], kCutSigmas2);
-    sum += difference;
-    square += difference * difference;
-  }
-  const double mean = sum / n;
-  return {mean, std::sqrt(std::max(square / n - mean * mean, 0.0) / n)};
-}
-
-double rms_px(const Foretelling& f, double unit) {
-  double sum = 0.0;
-  double count = 0.0;
-  for (std::size_t i = 0; i < f.sigmas2.size(); ++i) {
-    if (f.sigmas2[i] > kCutSigmas2 * unit) continue;
-    sum += f.off2_px[i];
-    count += 1.0;
-  }
-  return count > 0.0 ? std::sqrt(sum / count) : std::numeric_limits<double>::infinity();
 }
 
 class Chooser {

@@ -18,8 +18,10 @@ constexpr double kLikeMargin = 12.0;
 constexpr double kWorthwhile = 20.0;  // log odds
 
 // Nothing better can come.
-bool nearly_all(const Growth& growth) {
-  return 5 * growth.labelled > 4 * growth.expected && 5 * growth.expected > growth.labels.size();
+bool nearly_all(const Scene& scene, const Growth& growth) {
+  constexpr double kExact = 0.0015;  // of the image's width
+  return growth.spread_px < kExact * scene.width_px && 5 * growth.labelled > 4 * growth.expected &&
+         5 * growth.expected > growth.labels.size();
 }
 
 }  // namespace
@@ -41,7 +43,7 @@ std::vector<Growth> labels_from_scratch(const Scene& scene, const SurveyIndex& s
         if (!best.empty() && growth.log_odds < 0.2 * best.front().log_odds) continue;
         std::vector<Growth> all = likenesses(scene, survey, prior, kinds, growth, kLikeMargin);
         if (!convincing(scene, all.front())) continue;
-        if (nearly_all(all.front())) return all;
+        if (nearly_all(scene, all.front())) return all;
         if (best.empty() || all.front().log_odds > best.front().log_odds) {
           if (best.empty()) left = std::min(left, kGrownAfterFirst);
           best = std::move(all);

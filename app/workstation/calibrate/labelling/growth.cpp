@@ -198,7 +198,9 @@ bool convincing(const Scene& scene, const Growth& growth) {
   const double hypotheses =
       static_cast<double>(scene.dots.size()) * static_cast<double>(scene.blobs.size()) * 1e3;
   constexpr double kNarrowest = 40.0;  // focal length in widths: a lens of 1.4 degrees
-  return growth.labelled >= kLeastToTell && growth.sketch.focal_px < kNarrowest * scene.width_px &&
+  constexpr double kLoosest = 0.004;   // spread, of the image's width
+  return growth.labelled >= kLeastToTell && growth.spread_px < kLoosest * scene.width_px &&
+         growth.sketch.focal_px < kNarrowest * scene.width_px &&
          growth.log_odds > 10.0 + std::log(hypotheses) && 2 * growth.labelled > growth.expected;
 }
 

@@ -14,8 +14,9 @@ namespace dottrack::calibrate {
 
 struct RigRequest {
   std::string name = "rig";
-  std::optional<std::filesystem::path> target;  // a target's dots; copied beside the rig file
-  std::string comment;  // first line of the model files; empty: what the calibration says
+  std::optional<std::filesystem::path> target =
+      std::nullopt;          // a target's dots; copied beside the rig file
+  std::string comment = {};  // first line of the model files; empty: what the calibration says
   // Of every camera: how the tracker tells dots from the rest, as [[camera]] has it.
   double min_contrast_part = 0.3;
   double min_contrast_dn = 12.0;

@@ -35,8 +35,8 @@ Vector3d place_in_hall(Random& random) {
   const double x = random.uniform(-0.5, 0.5) * kLength_m;
   const double y = random.uniform(-0.5, 0.5) * kWidth_m;
   const double kind = random.uniform(0.0, 1.0);
-  if (kind < 0.35) return {x, y, 0.0};
-  if (kind < 0.7) return {x, y, random.uniform(0.2, 1.5)};
+  if (kind < 0.3) return {x, y, 0.0};
+  if (kind < 0.85) return {x, y, random.uniform(0.2, 1.5)};
   const double side = random.uniform(0.0, 1.0) < 0.5 ? -0.5 : 0.5;
   const double z = random.uniform(0.2, 3.0);
   if (random.uniform(0.0, 1.0) < 0.5) return {x, side * kWidth_m, z};
