@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -97,6 +98,16 @@ Result<Outcome> measure(const Command& command) {
   return outcome;
 }
 
+// Of another kind than the new ones: a later run would find two models of a camera.
+void remove_older_models(const fs::path& folder, const calibrate::Calibration& calibration) {
+  std::error_code ignored;
+  for (const calibrate::CameraCalibration& camera : calibration.cameras) {
+    for (const char* kind : {".cahv", ".cahvor", ".cahvore"}) {
+      fs::remove(folder / (camera.name + kind), ignored);
+    }
+  }
+}
+
 Result<void> write_all(const Command& command, const Outcome& outcome) {
   if (auto made = make_folder(command.out); !made) return made;
   calibrate::RigRequest request;
@@ -110,6 +121,7 @@ Result<void> write_all(const Command& command, const Outcome& outcome) {
   files->push_back({"residuals.csv", calibrate::residuals_csv(outcome.dots, outcome.calibration)});
   files->push_back({"report.json", calibrate::figures_json(outcome.dots, outcome.calibration,
                                                            outcome.tested, outcome.remarks)});
+  remove_older_models(command.out, outcome.calibration);
   for (const calibrate::RigFile& file : *files) {
     if (auto done = telemetry::write_file(command.out / file.name, file.text); !done) return done;
   }

@@ -114,11 +114,12 @@ Result<PgmSize> read_pgm_size(const std::filesystem::path& path) {
     const auto sensible = [](int side) { return side > 0 && side <= kMost_px; };
     const bool small = sensible(header.size.width_px) && sensible(header.size.height_px);
     if (in && header.fault.empty() && small) return header.size;
-    wrong = !header.fault.empty() ? header.fault
-                                  : fmt::format("is of {} x {} pixels", header.size.width_px,
-                                                header.size.height_px);
+    wrong = !header.fault.empty()
+                ? header.fault
+                : fmt::format("is of {} x {} pixels", header.size.width_px, header.size.height_px);
   }
-  return fail(fmt::format("{} {}; expected a binary PGM (P5) with maxval 255", path.string(), wrong));
+  return fail(
+      fmt::format("{} {}; expected a binary PGM (P5) with maxval 255", path.string(), wrong));
 }
 
 }  // namespace dottrack::drivers

@@ -21,8 +21,8 @@ struct PgmSize {
   int height_px = 0;
 };
 
-// What the header says. Anything but P5, maxval 255 and at most 32768 pixels each way is an error of
-// one line, as above.
+// What the header says. Anything but P5, maxval 255 and at most 32768 pixels each way is an error
+// of one line, as above.
 Result<PgmSize> read_pgm_size(const std::filesystem::path& path);
 
 }  // namespace dottrack::drivers

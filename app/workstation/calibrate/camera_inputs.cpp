@@ -41,9 +41,10 @@ class Reader {
   }
 
   tl::unexpected<Error> no_pictures(const fs::path& file, const std::string& name) const {
-    return fail(fmt::format("{}: camera {} has no pictures in {}; expected {}.pgm or a folder of "
-                            "that name",
-                            file.string(), config::in_quotes(name), files_.images.string(), name));
+    return fail(
+        fmt::format("{}: camera {} has no pictures in {}; expected {}.pgm or a folder of "
+                    "that name",
+                    file.string(), config::in_quotes(name), files_.images.string(), name));
   }
 
   // A camera of the rig without pictures is not calibrated; there must be one with.

@@ -52,8 +52,8 @@ std::string camera_json(const CameraCalibration& camera) {
 std::string suspect_json(const SuspectDot& suspect) {
   JsonObject object(2);
   object.add("dot", json_string(suspect.name));
-  object.add("off_m", fmt::format("[{}, {}, {}]", suspect.off_m.x(), suspect.off_m.y(),
-                                  suspect.off_m.z()));
+  object.add("off_m",
+             fmt::format("[{}, {}, {}]", suspect.off_m.x(), suspect.off_m.y(), suspect.off_m.z()));
   object.add("sigmas", suspect.sigmas);
   return object.text();
 }
@@ -61,7 +61,8 @@ std::string suspect_json(const SuspectDot& suspect) {
 template <class Items, class Text>
 std::string list(const Items& items, Text text) {
   std::string all = "[";
-  for (const auto& item : items) all += fmt::format("{}\n    {}", all.size() > 1 ? "," : "", text(item));
+  for (const auto& item : items)
+    all += fmt::format("{}\n    {}", all.size() > 1 ? "," : "", text(item));
   return all + (items.empty() ? "]" : "\n  ]");
 }
 
@@ -72,10 +73,11 @@ std::string residuals_csv(std::span<const SurveyedDot> dots, const Calibration& 
   for (const CameraCalibration& camera : calibration.cameras) {
     for (const ResidualOfView& r : camera.residuals) {
       const SurveyedDot& dot = dots[r.dot];
-      fmt::format_to(std::back_inserter(text), "{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{}\n",
-                     camera.name, dot.name, dot.tick ? fmt::format("{}", *dot.tick) : "",
-                     r.pixel.x(), r.pixel.y(), r.off_px.x(), r.off_px.y(), r.holdout_px.x(),
-                     r.holdout_px.y(), r.used ? 1 : 0);
+      fmt::format_to(std::back_inserter(text),
+                     "{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{}\n", camera.name,
+                     dot.name, dot.tick ? fmt::format("{}", *dot.tick) : "", r.pixel.x(),
+                     r.pixel.y(), r.off_px.x(), r.off_px.y(), r.holdout_px.x(), r.holdout_px.y(),
+                     r.used ? 1 : 0);
     }
   }
   return text;
@@ -104,12 +106,11 @@ std::string figures_json(std::span<const SurveyedDot> dots, const Calibration& c
   return report.text() + "\n";
 }
 
-std::string figures_table(const Calibration& calibration,
-                          const std::optional<HalfFigures>& tested,
+std::string figures_table(const Calibration& calibration, const std::optional<HalfFigures>& tested,
                           std::span<const std::string> remarks) {
-  std::string text = fmt::format("{:<14} {:<26} {:>10} {:>8} {:>12} {:>10} {:>11}\n", "camera",
-                                 "model", "dots used", "rms px", "held out px", "place mm",
-                                 "pointing deg");
+  std::string text =
+      fmt::format("{:<14} {:<26} {:>10} {:>8} {:>12} {:>10} {:>11}\n", "camera", "model",
+                  "dots used", "rms px", "held out px", "place mm", "pointing deg");
   for (const CameraCalibration& camera : calibration.cameras) {
     text += fmt::format("{:<14} {:<26} {:>10} {:>8.3f} {:>12.3f} {:>10.2f} {:>11.4f}\n",
                         camera.name, to_string(camera.chosen),
@@ -124,14 +125,15 @@ std::string figures_table(const Calibration& calibration,
   }
   text += "\n";
   if (tested) {
-    text += fmt::format("tested on the dots not used: {:.4f} px rms of {}, {:.4f} mm rms in 3-D of {}\n",
-                        tested->rms_px, tested->observations, 1e3 * tested->rms_m,
-                        tested->triangulated);
+    text += fmt::format(
+        "tested on the dots not used: {:.4f} px rms of {}, {:.4f} mm rms in 3-D of {}\n",
+        tested->rms_px, tested->observations, 1e3 * tested->rms_m, tested->triangulated);
   }
   for (const SuspectDot& suspect : calibration.suspects) {
-    text += fmt::format("wrongly surveyed? dot {}: off by ({:.1f}, {:.1f}, {:.1f}) mm, {:.1f} sigmas\n",
-                        suspect.name, 1e3 * suspect.off_m.x(), 1e3 * suspect.off_m.y(),
-                        1e3 * suspect.off_m.z(), suspect.sigmas);
+    text +=
+        fmt::format("wrongly surveyed? dot {}: off by ({:.1f}, {:.1f}, {:.1f}) mm, {:.1f} sigmas\n",
+                    suspect.name, 1e3 * suspect.off_m.x(), 1e3 * suspect.off_m.y(),
+                    1e3 * suspect.off_m.z(), suspect.sigmas);
   }
   for (const std::string& remark : remarks) text += fmt::format("note: {}\n", remark);
   for (const std::string& remark : calibration.remarks) text += fmt::format("note: {}\n", remark);

@@ -18,8 +18,7 @@ std::string figures_json(std::span<const SurveyedDot> dots, const Calibration& c
                          const std::optional<HalfFigures>& tested,
                          std::span<const std::string> remarks);
 
-std::string figures_table(const Calibration& calibration,
-                          const std::optional<HalfFigures>& tested,
+std::string figures_table(const Calibration& calibration, const std::optional<HalfFigures>& tested,
                           std::span<const std::string> remarks);
 
 }  // namespace dottrack::calibrate

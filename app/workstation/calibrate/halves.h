@@ -1,5 +1,6 @@
 #pragma once
-// How well models do on dots that they were not made from: fit on every other dot, test on the rest.
+// How well models do on dots that they were not made from: fit on every other dot, test on the
+// rest.
 
 #include <cstddef>
 #include <cstdint>

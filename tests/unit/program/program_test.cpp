@@ -67,6 +67,22 @@ TEST(Program, AnswersWrongInputWithOneLineAndStatus2) {
                    "none.cahv: no such file; expected a camera model in JPL's text format");
 }
 
+TEST(Program, AnswersWrongInputOfACalibrationWithOneLineAndStatus2) {
+  const test::TemporaryFolder folder;
+  const std::string dots = folder.write("dots.csv", "dot,x_m,y_m,z_m\na,0,0,0\n").string();
+  expect_wrong_use("calibrate --images i --out o",
+                   "--dots is required; see dottrack calibrate --help");
+  expect_wrong_use("calibrate --dots none.csv --images i --out o",
+                   "none.csv: no such file; expected a table with the headings dot,x_m,y_m,z_m (or "
+                   "_cm, _mm)");
+  expect_wrong_use("calibrate --out o --images none --dots " + dots,
+                   "none: no such folder; expected one with the cameras' pictures");
+  folder.write("frames/cam1.pgm", std::string("P5\n8 8\n255\n") + std::string(64, '0'));
+  expect_wrong_use(
+      "calibrate --out o --dots " + dots + " --images " + (folder.path() / "frames").string(),
+      "the survey has 1 dots; expected 8 or more, not all in one plane");
+}
+
 TEST(Program, JudgesATargetByItsStatus) {
   const test::TemporaryFolder folder;
   const std::string header = "dot,x_m,y_m,z_m,diameter_m\n";
@@ -105,7 +121,7 @@ TEST(Program, HelpsOnStandardOutput) {
   const Outcome outcome = dottrack("--help");
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.err, "");
-  for (const char* command : {"replay", "sim", "experiments", "camera"}) {
+  for (const char* command : {"replay", "sim", "experiments", "calibrate", "camera"}) {
     EXPECT_THAT(outcome.out, HasSubstr(command));
   }
 }

@@ -34,9 +34,7 @@ class CsvTable {
   std::optional<Length> length(std::string_view name) const;
   bool has(std::string_view name) const { return column({name}).has_value(); }
 
-  const std::string& text(std::size_t row, std::size_t column) const {
-    return rows_[row][column];
-  }
+  const std::string& text(std::size_t row, std::size_t column) const { return rows_[row][column]; }
   // A finite number; else complains and gives 0.
   double number(std::size_t row, std::size_t column);
   double metres(std::size_t row, const Length& length) {

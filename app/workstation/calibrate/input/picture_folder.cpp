@@ -116,8 +116,8 @@ Result<Picture> mean_picture(const std::vector<fs::path>& files) {
   if (!picture || files.size() == 1) return picture;
   std::vector<std::uint32_t> sums(picture->pixels.begin(), picture->pixels.end());
   for (std::size_t i = 1; i < files.size(); ++i) {
-    const auto read = drivers::read_pgm(files[i], picture->width_px, picture->height_px,
-                                        picture->pixels);
+    const auto read =
+        drivers::read_pgm(files[i], picture->width_px, picture->height_px, picture->pixels);
     if (!read) return tl::unexpected<Error>(read.error());
     for (std::size_t p = 0; p < sums.size(); ++p) sums[p] += picture->pixels[p];
   }

@@ -15,8 +15,8 @@ namespace dottrack::calibrate {
 
 struct CameraPictures {
   std::string name;
-  std::vector<std::filesystem::path> files;                 // in the order of their names
-  std::map<std::size_t, std::filesystem::path> of_tick;     // those whose names are numbers
+  std::vector<std::filesystem::path> files;              // in the order of their names
+  std::map<std::size_t, std::filesystem::path> of_tick;  // those whose names are numbers
 };
 
 // Cameras in the order of their names, numbers in them by their value. Folders without pictures are

@@ -92,10 +92,10 @@ class SurveyReader {
   void check_once(std::size_t row, const SurveyedDot& dot) {
     const auto [same, fresh] = lines_.emplace(std::pair(dot.name, dot.tick), table_.line(row));
     if (fresh) return;
-    table_.complain(row,
-                    fmt::format("dot {} again, first on line {}", config::in_quotes(dot.name),
-                                same->second),
-                    "every dot once, or once a tick");
+    table_.complain(
+        row,
+        fmt::format("dot {} again, first on line {}", config::in_quotes(dot.name), same->second),
+        "every dot once, or once a tick");
   }
 
   CsvTable& table_;

@@ -99,8 +99,8 @@ void leave_one(LabelledCamera& camera, std::size_t which) {
 
 // By how much the second labelling's world is turned against the first's.
 double turned_rad(const Growth& a, const Growth& b) {
-  return Eigen::AngleAxisd(
-             Eigen::Matrix3d(a.sketch.rotation.transpose() * b.sketch.rotation)).angle();
+  return Eigen::AngleAxisd(Eigen::Matrix3d(a.sketch.rotation.transpose() * b.sketch.rotation))
+      .angle();
 }
 
 class Decision {
@@ -168,7 +168,8 @@ class Decision {
     }
     for (bool told = true; told;) {
       told = false;
-      for (std::size_t c = 0; c < cameras_.size(); ++c) told = (open(c) && by_other_marks(c)) || told;
+      for (std::size_t c = 0; c < cameras_.size(); ++c)
+        told = (open(c) && by_other_marks(c)) || told;
     }
     for (std::size_t c = 0; c < cameras_.size(); ++c) {
       if (!open(c)) continue;

@@ -35,8 +35,8 @@ std::vector<Scale> scales_of(const BlobOptions& options) {
   }
   if (options.max_dot_px > kSmallDot_px) {
     const int wide = static_cast<int>(kDotsPerSurround * options.max_dot_px) | 1;
-    scales.push_back(
-        {std::min(wide, 255), std::max(0.7 * kSmallDot_px, options.min_dot_px), options.max_dot_px});
+    scales.push_back({std::min(wide, 255), std::max(0.7 * kSmallDot_px, options.min_dot_px),
+                      options.max_dot_px});
   }
   return scales;
 }
@@ -109,10 +109,9 @@ class Finder {
                            .polarity = options_.polarity};
     const int x_first = std::max(x - margin, 0);
     const int y_first = std::max(y - margin, 0);
-    const ImageView crop{image_.row(y_first) + x_first,
-                         std::min(x + kTile_px + margin, image_.width_px) - x_first,
-                         std::min(y + kTile_px + margin, image_.height_px) - y_first,
-                         image_.stride_bytes};
+    const ImageView crop{
+        image_.row(y_first) + x_first, std::min(x + kTile_px + margin, image_.width_px) - x_first,
+        std::min(y + kTile_px + margin, image_.height_px) - y_first, image_.stride_bytes};
     identifier_.identify(crop, band, gate_of(scale), *regions_);
     for (image::Region region : *regions_) {
       region.centroid_px += Eigen::Vector2d(x_first, y_first);
@@ -146,8 +145,8 @@ class Finder {
     blob.semi_minor_px = region.semi_minor_px;
     blob.angle_rad = region.angle_rad;
     blob.contrast_dn = region.core_contrast_dn + options_.min_contrast_dn;
-    blob.sigma_px = centre_sigma_px(noise_dn_, blob.contrast_dn,
-                                    region.semi_major_px + region.semi_minor_px);
+    blob.sigma_px =
+        centre_sigma_px(noise_dn_, blob.contrast_dn, region.semi_major_px + region.semi_minor_px);
     refine(blob);
     return blob;
   }

@@ -20,7 +20,8 @@ struct Blob {
   double sigma_px = 0.1;  // of each coordinate, from the image's noise
 };
 
-// How dots stand out. The defaults find dots from 4 to 60 px across, some 10 DN over their surround.
+// How dots stand out. The defaults find dots from 4 to 60 px across, some 10 DN over their
+// surround.
 struct BlobOptions {
   core::Polarity polarity = core::Polarity::bright;
   int min_contrast_dn = 8;

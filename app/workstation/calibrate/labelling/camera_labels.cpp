@@ -92,27 +92,31 @@ Result<Scene> scene_of(std::span<const SurveyedDot> dots, const CameraPictures& 
 std::vector<Growth> labels_from_seeds(const Scene& scene, const SurveyIndex& survey,
                                       const SketchPrior& prior, std::span<const Seed> seeds) {
   constexpr double kPointing_px = 3.0;
+  const double pointing_px = std::max(6.0, 0.02 * scene.width_px);
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector2d> pixels;
   Labels labels(scene.dots.size(), kNoBlob);
   for (const Seed& seed : seeds) {
     points.push_back(scene.dots[seed.dot].position_m);
     const int layer = scene.dot_layer[seed.dot];
-    const int blob = scene.index.nearest(layer, seed.pixel, 0.02 * scene.width_px);
+    const int blob = scene.index.nearest(layer, seed.pixel, pointing_px);
     labels[seed.dot] = blob;
     pixels.push_back(blob < 0 ? seed.pixel : scene.blobs[static_cast<std::size_t>(blob)].pixel);
   }
   std::vector<Growth> grown;
-  for (const SketchFit& fit : sketches(points, pixels, prior, kPointing_px, 4)) {
+  for (const SketchFit& fit : sketches(points, pixels, prior, kPointing_px, 8)) {
     grown.push_back(grow(scene, survey, fit.sketch, prior, labels));
     const Labels none(scene.dots.size(), kNoBlob);
-    grown.push_back(settle(scene, survey, fit.sketch, prior, none, 0.02 * scene.width_px));
+    grown.push_back(settle(scene, survey, fit.sketch, prior, none, 0.03 * scene.width_px));
   }
   std::stable_sort(grown.begin(), grown.end(),
                    [](const Growth& a, const Growth& b) { return a.log_odds > b.log_odds; });
   std::erase_if(grown, [&](const Growth& growth) {  // what was pointed at stays what it is
     std::size_t kept = 0;
-    for (const Seed& seed : seeds) kept += growth.labels[seed.dot] == labels[seed.dot] ? 1U : 0U;
+    for (const Seed& seed : seeds) {
+      const auto at = project(growth.sketch, scene.dots[seed.dot].position_m);
+      kept += at && (*at - seed.pixel).norm() < pointing_px ? 1U : 0U;
+    }
     return 4 * kept < 3 * seeds.size();
   });
   if (grown.size() > 1) grown.resize(1);
@@ -135,8 +139,7 @@ std::vector<Growth> label_camera(const Scene& scene, const SurveyIndex& survey,
     if (!labels.empty() || !guess) return labels;
   }
   const SketchPrior prior = prior_of(input, scene.width_px, scene.height_px);
-  auto labels =
-      sure_ones(scene, survey, prior, kinds, labels_from_guess(scene, survey, prior));
+  auto labels = sure_ones(scene, survey, prior, kinds, labels_from_guess(scene, survey, prior));
   if (!labels.empty() || grid) return labels;
   return labels_from_scratch(scene, survey, any);
 }

@@ -23,7 +23,7 @@ struct CameraInput {
 
 // What a guess may be off by.
 struct GuessTolerance {
-  double place_m = 0.3;       // standard deviations
+  double place_m = 0.3;  // standard deviations
   double rotation_rad = 0.06;
   double log_focal = 0.05;
 };

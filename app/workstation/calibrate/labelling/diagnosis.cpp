@@ -82,8 +82,8 @@ std::optional<std::string> exchanged(const std::vector<CameraInput>& inputs,
   return std::nullopt;
 }
 
-std::optional<std::string> wrong_unit(std::span<const SurveyedDot> dots,
-                                      const CameraInput& input, const Scene& scene) {
+std::optional<std::string> wrong_unit(std::span<const SurveyedDot> dots, const CameraInput& input,
+                                      const Scene& scene) {
   for (const double factor : {1e-3, 1e3, 1e-2, 1e2, 0.1, 10.0, 0.0254, 0.3048, 3.28084, 39.3701}) {
     const Survey survey = scaled(dots, factor);
     if (guided(with_dots(scene, survey), input).empty()) continue;
@@ -95,20 +95,25 @@ std::optional<std::string> wrong_unit(std::span<const SurveyedDot> dots,
   return std::nullopt;
 }
 
+constexpr int kSomeAxis = 3;
+
+std::string mirror_line(const CameraInput& input, int axis) {
+  constexpr std::array kHow{"change the sign of x", "change the sign of y", "change the sign of z",
+                            "swap two axes or change the sign of one"};
+  return fmt::format(
+      "{}: its dots fit the survey only in a mirror; the coordinates are left-handed: {} in the "
+      "survey",
+      named(input), kHow[static_cast<std::size_t>(axis)]);
+}
+
 std::optional<std::string> wrong_hand(std::span<const SurveyedDot> dots, const CameraInput& input,
                                       const Scene& scene) {
-  constexpr std::array kAxes{"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) {
     if (!guessed(input) && axis > 0) break;
     const Survey survey = mirrored(dots, axis);
     const Scene other = with_dots(scene, survey);
     if ((guessed(input) ? guided(other, input) : unguided(other)).empty()) continue;
-    return fmt::format(
-        "{}: its dots fit the survey only in a mirror; the coordinates are left-handed: {} in the "
-        "survey",
-        named(input),
-        guessed(input) ? fmt::format("change the sign of {}", kAxes[static_cast<std::size_t>(axis)])
-                       : "swap two axes or change the sign of one");
+    return mirror_line(input, guessed(input) ? axis : kSomeAxis);
   }
   return std::nullopt;
 }
@@ -140,7 +145,8 @@ Measured measured(const LabelledCamera& camera) {
     m.middle_m += dot.position_m;
     distances.push_back(distance);
     if (dot.diameter_m <= 0.0) continue;
-    sizes.push_back(2.0 * blob.semi_major_px * distance / (growth.sketch.focal_px * dot.diameter_m));
+    sizes.push_back(2.0 * blob.semi_major_px * distance /
+                    (growth.sketch.focal_px * dot.diameter_m));
   }
   m.middle_m /= static_cast<double>(std::max<std::size_t>(distances.size(), 1));
   m.distance_m = median(distances);
@@ -223,7 +229,8 @@ std::string why_unlabelled(std::span<const SurveyedDot> dots,
   }
   if (!input.seeds.empty()) {
     return fmt::format(
-        "{}: its seeds do not lead to further dots; check them, and see --min-contrast and --dot-px",
+        "{}: its seeds do not lead to further dots; check them, and see --min-contrast and "
+        "--dot-px",
         named(input));
   }
   if (guessed(input)) {
@@ -231,10 +238,10 @@ std::string why_unlabelled(std::span<const SurveyedDot> dots,
     if (auto line = wrong_unit(dots, input, scene)) return *line;
   }
   if (auto line = wrong_hand(dots, input, scene)) return *line;
-  return fmt::format(
-      "{}: its {} dots in the image fit the survey nowhere; {}", named(input), scene.blobs.size(),
-      guessed(input) ? "check the survey and the approximate models, or give --seeds"
-                     : "check the survey, or give --models, --near or --seeds");
+  return fmt::format("{}: its {} dots in the image fit the survey nowhere; {}", named(input),
+                     scene.blobs.size(),
+                     guessed(input) ? "check the survey and the approximate models, or give --seeds"
+                                    : "check the survey, or give --models, --near or --seeds");
 }
 
 std::optional<std::string> why_unbelievable(std::span<const SurveyedDot> dots,
@@ -268,18 +275,20 @@ std::optional<std::string> why_unbelievable(std::span<const SurveyedDot> dots,
   return std::nullopt;
 }
 
-std::optional<std::string> looks_mirrored(std::span<const SurveyedDot> dots,
-                                          const std::vector<CameraInput>& inputs,
-                                          const std::vector<LabelledCamera>& cameras) {
+Result<std::optional<std::string>> try_mirror(std::span<const SurveyedDot> dots,
+                                              const std::vector<CameraInput>& inputs,
+                                              const std::vector<LabelledCamera>& cameras) {
   for (const CameraInput& input : inputs) {
     if (guessed(input) || !input.seeds.empty()) return std::nullopt;
   }
   const LabelledCamera& first = cameras.front();
   const Survey survey = mirrored(dots, 0);
   const auto in_mirror = unguided(with_dots(first.scene, survey));
-  const bool alike = !in_mirror.empty() &&
-                     in_mirror.front().log_odds > 0.95 * first.labellings.front().log_odds;
-  if (!alike) return std::nullopt;
+  const double here = first.labellings.front().log_odds;
+  const double there = in_mirror.empty() ? 0.0 : in_mirror.front().log_odds;
+  if (there > here + std::max(20.0, 0.01 * here))
+    return fail(mirror_line(inputs.front(), kSomeAxis));
+  if (there < 0.95 * here) return std::nullopt;
   return "the dots look the same in a mirror, so that they cannot tell whether the survey is "
          "right-handed: check that, or give --seeds or --models";
 }

@@ -20,10 +20,10 @@ std::optional<std::string> why_unbelievable(std::span<const SurveyedDot> dots,
                                             const std::vector<CameraInput>& inputs,
                                             const std::vector<LabelledCamera>& cameras);
 
-// Where nothing but the dots says which is which: whether they would fit in a mirror as well, so
-// that left-handed coordinates cannot be told.
-std::optional<std::string> looks_mirrored(std::span<const SurveyedDot> dots,
-                                          const std::vector<CameraInput>& inputs,
-                                          const std::vector<LabelledCamera>& cameras);
+// Where nothing but the dots says which is which: how they fit in a mirror. An error where they fit
+// better there; a remark where they fit as well, so that left-handed coordinates cannot be told.
+Result<std::optional<std::string>> try_mirror(std::span<const SurveyedDot> dots,
+                                              const std::vector<CameraInput>& inputs,
+                                              const std::vector<LabelledCamera>& cameras);
 
 }  // namespace dottrack::calibrate

@@ -9,14 +9,15 @@
 namespace dottrack::calibrate {
 namespace {
 
-constexpr double kEdge_px = 0.25;      // of the logistic edge
-constexpr int kAround_px = 4;          // beyond the rim
+constexpr double kEdge_px = 0.25;  // of the logistic edge
+constexpr int kAround_px = 4;      // beyond the rim
 constexpr int kMaxReach_px = 60;
 constexpr double kOffEven_dn = 6.0;    // what counts half, at least
 constexpr double kOffEvenPart = 0.08;  // and of the contrast
 constexpr int kMaxSteps = 25;
-constexpr double kMostOff = 0.5;       // of the centre, in semi-minor axes, and half a pixel
-constexpr double kMostStretch = 1.7;   // of an axis
+constexpr double kMostOff = 0.5;        // of the centre, in semi-minor axes, and half a pixel
+constexpr double kMostStretch = 1.7;    // of an axis
+constexpr double kLeastContrast = 0.3;  // of the start's
 
 constexpr int kUnknowns = 9;  // x, y, contrast, Qxx, Qxy, Qyy, surround, its slopes
 using Numbers = Eigen::Matrix<double, kUnknowns, 1>;
@@ -30,20 +31,23 @@ class Patch {
   // Sum of what the robust loss makes of the differences; infinite for no ellipse.
   double cost(const Numbers& n) const {
     double sum = 0.0;
-    const bool ellipse = visit(n, [&](double off, const Numbers*) {
-      sum += off2_ * std::log1p(off * off / off2_);
-    }, false);
+    const bool ellipse = visit(
+        n, [&](double off, const Numbers*) { sum += off2_ * std::log1p(off * off / off2_); },
+        false);
     return ellipse ? sum : std::numeric_limits<double>::infinity();
   }
 
   void linearise(const Numbers& n, Normal& normal, Numbers& gradient) const {
     normal.setZero();
     gradient.setZero();
-    visit(n, [&](double off, const Numbers* slope) {
-      const double weight = 1.0 / (1.0 + off * off / off2_);
-      normal.selfadjointView<Eigen::Lower>().rankUpdate(*slope, weight);
-      gradient += weight * off * *slope;
-    }, true);
+    visit(
+        n,
+        [&](double off, const Numbers* slope) {
+          const double weight = 1.0 / (1.0 + off * off / off2_);
+          normal.selfadjointView<Eigen::Lower>().rankUpdate(*slope, weight);
+          gradient += weight * off * *slope;
+        },
+        true);
     normal.triangularView<Eigen::StrictlyUpper>() = normal.transpose();
   }
 
@@ -119,8 +123,8 @@ void descend(const Patch& patch, Numbers& n, double& cost) {
       Normal damped = normal;
       damped.diagonal() *= 1.0 + damping;
       const Numbers next = n - damped.ldlt().solve(gradient);
-      const double there = next.allFinite() ? patch.cost(next)
-                                            : std::numeric_limits<double>::infinity();
+      const double there =
+          next.allFinite() ? patch.cost(next) : std::numeric_limits<double>::infinity();
       damping *= there < cost ? 0.2 : 5.0;
       if (!(there < cost)) continue;
       gain = cost - there;
@@ -132,13 +136,11 @@ void descend(const Patch& patch, Numbers& n, double& cost) {
 }
 
 bool is_near(const Disc& disc, const Disc& start) {
-  const auto like = [](double a, double b) {
-    return a < kMostStretch * b && b < kMostStretch * a;
-  };
+  const auto like = [](double a, double b) { return a < kMostStretch * b && b < kMostStretch * a; };
   return (disc.centre - start.centre).norm() < kMostOff * start.semi_minor_px + 0.5 &&
          like(disc.semi_major_px, start.semi_major_px) &&
          like(disc.semi_minor_px, start.semi_minor_px) &&
-         disc.contrast_dn * start.contrast_dn > 0.0;
+         disc.contrast_dn / start.contrast_dn > kLeastContrast;
 }
 
 }  // namespace
@@ -147,8 +149,8 @@ std::optional<Disc> fit_disc(const ImageView& image, const Disc& start) {
   const int x = static_cast<int>(std::lround(start.centre.x()));
   const int y = static_cast<int>(std::lround(start.centre.y()));
   const int reach = static_cast<int>(std::ceil(start.semi_major_px)) + kAround_px;
-  const bool inside = x >= reach && y >= reach && x + reach < image.width_px &&
-                      y + reach < image.height_px;
+  const bool inside =
+      x >= reach && y >= reach && x + reach < image.width_px && y + reach < image.height_px;
   if (!inside || reach > kMaxReach_px || !(start.semi_minor_px > 0.5)) return std::nullopt;
   const double off_even = std::max(kOffEven_dn, kOffEvenPart * std::abs(start.contrast_dn));
   const Patch patch(image, x, y, reach, off_even);

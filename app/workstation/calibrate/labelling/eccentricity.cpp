@@ -45,8 +45,7 @@ Eigen::Vector2d eccentricity_px(const geometry::CameraModel& model, const Eigen:
   std::array<Eigen::Vector2d, kRim> rim;
   for (std::size_t i = 0; i < kRim; ++i) {
     const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kRim;
-    const Eigen::Vector3d at =
-        centre_m + radius_m * (std::cos(angle) * u + std::sin(angle) * w);
+    const Eigen::Vector3d at = centre_m + radius_m * (std::cos(angle) * u + std::sin(angle) * w);
     if (geometry::project(model, at, rim[i]) != geometry::OpticsStatus::ok) return none;
     rim[i] -= middle;
   }

@@ -12,13 +12,16 @@ namespace {
 constexpr std::size_t kSightingsAKind = 60;
 constexpr std::size_t kKinds = 400;
 constexpr std::size_t kMostGrown = 600;
+constexpr std::size_t kDotsGrown = 260000;  // all in all: many dots grow slowly, and need few tries
 constexpr std::size_t kGrownAfterFirst = 300;  // a finer grid may look like a part of itself
 constexpr double kLikeMargin = 12.0;
 constexpr double kWorthwhile = 20.0;  // log odds
 
 // Nothing better can come.
-bool nearly_all(const Growth& growth) {
-  return 5 * growth.labelled > 4 * growth.expected && 5 * growth.expected > growth.labels.size();
+bool nearly_all(const Scene& scene, const Growth& growth) {
+  constexpr double kExact = 0.0015;  // of the image's width
+  return growth.spread_px < kExact * scene.width_px && 5 * growth.labelled > 4 * growth.expected &&
+         5 * growth.expected > growth.labels.size();
 }
 
 }  // namespace
@@ -28,7 +31,8 @@ std::vector<Growth> labels_from_scratch(const Scene& scene, const SurveyIndex& s
   constexpr double kPatchScale_px = 1.0;
   const std::vector<PatchKind> kinds = patch_kinds(scene, survey);
   std::vector<Growth> best;
-  std::size_t left = kMostGrown;
+  std::size_t left = std::clamp<std::size_t>(
+      kDotsGrown / std::max<std::size_t>(scene.dots.size(), 1), 60, kMostGrown);
   for (std::size_t k = 0; k < std::min(kKinds, kinds.size()) && left > 0; ++k) {
     for (const Sighting& sighting : sightings(scene, kinds[k], kSightingsAKind)) {
       const Pairs pairs = pairs_of(scene, sighting.labels);
@@ -39,7 +43,7 @@ std::vector<Growth> labels_from_scratch(const Scene& scene, const SurveyIndex& s
         if (!best.empty() && growth.log_odds < 0.2 * best.front().log_odds) continue;
         std::vector<Growth> all = likenesses(scene, survey, prior, kinds, growth, kLikeMargin);
         if (!convincing(scene, all.front())) continue;
-        if (nearly_all(all.front())) return all;
+        if (nearly_all(scene, all.front())) return all;
         if (best.empty() || all.front().log_odds > best.front().log_odds) {
           if (best.empty()) left = std::min(left, kGrownAfterFirst);
           best = std::move(all);

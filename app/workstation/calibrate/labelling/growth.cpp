@@ -9,12 +9,12 @@
 namespace dottrack::calibrate {
 namespace {
 
-constexpr double kOfSpacing = 0.33;     // how far a blob may be off, of the way to the next dot
+constexpr double kOfSpacing = 0.33;  // how far a blob may be off, of the way to the next dot
 constexpr double kLeastTolerance_px = 2.0;
-constexpr double kChance = 0.35;        // blobs expected inside the tolerance by chance
-constexpr double kDetected = 0.7;       // how probably a dot that is there is found
+constexpr double kChance = 0.35;   // blobs expected inside the tolerance by chance
+constexpr double kDetected = 0.7;  // how probably a dot that is there is found
 constexpr double kLeastSigma_px = 0.3;
-constexpr double kGrazing = 0.05;       // cosine
+constexpr double kGrazing = 0.05;  // cosine
 constexpr int kMaxRounds = 40;
 
 double widest_tolerance(const Scene& scene) {
@@ -102,31 +102,29 @@ std::vector<int> all_dots(const Scene& scene) {
   return dots;
 }
 
-// Dots by their distance to the nearest labelled one, in that dot's spacings.
+// Dots by how many steps from neighbour to neighbour they are from a labelled one.
 std::vector<int> by_distance(const Scene& scene, const SurveyIndex& survey, const Labels& labels) {
-  std::vector<std::pair<double, int>> order;
-  for (const int dot : all_dots(scene)) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-      if (labels[i] == kNoBlob) continue;
-      const double off = (scene.dots[i].position_m -
-                          scene.dots[static_cast<std::size_t>(dot)].position_m).squaredNorm();
-      const double spacing = survey.spacing_m(static_cast<int>(i));
-      least = std::min(least, off / (spacing * spacing + 1e-12));
-    }
-    order.emplace_back(least, dot);
+  std::vector<int> order;
+  std::vector<bool> reached(labels.size(), false);
+  const auto take = [&](std::size_t dot) {
+    if (reached[dot] || scene.dot_layer[dot] < 0) return;
+    reached[dot] = true;
+    order.push_back(static_cast<int>(dot));
+  };
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] != kNoBlob) take(i);
   }
-  std::sort(order.begin(), order.end());
-  std::vector<int> dots;
-  for (const auto& [distance, dot] : order) dots.push_back(dot);
-  return dots;
+  for (std::size_t next = 0; next < order.size(); ++next) {
+    for (const int other : survey.neighbours(order[next])) take(static_cast<std::size_t>(other));
+  }
+  for (std::size_t i = 0; i < labels.size(); ++i) take(i);
+  return order;
 }
 
 void refit(const Scene& scene, const SketchPrior& prior, Growth& growth, int steps) {
   const Pairs pairs = pairs_of(scene, growth.labels);
   const double scale = std::max(0.7, 2.0 * growth.spread_px);
-  const SketchFit fit =
-      fit_sketch(growth.sketch, prior, pairs.points, pairs.pixels, scale, steps);
+  const SketchFit fit = fit_sketch(growth.sketch, prior, pairs.points, pairs.pixels, scale, steps);
   growth.sketch = fit.sketch;
   growth.spread_px = fit.spread_px;
 }
@@ -189,10 +187,9 @@ void judge(const Scene& scene, Growth& growth) {
   growth.spread_px = std::sqrt(*middle);
   const double sigma = std::max(kLeastSigma_px, growth.spread_px / 1.1774);
   for (const auto& [squared, layer] : found) {
-    const double here = std::exp(-0.5 * squared / (sigma * sigma)) /
-                        (2.0 * std::numbers::pi * sigma * sigma);
-    growth.log_odds +=
-        std::log(kDetected * here / scene.index.density(layer) + (1.0 - kDetected));
+    const double here =
+        std::exp(-0.5 * squared / (sigma * sigma)) / (2.0 * std::numbers::pi * sigma * sigma);
+    growth.log_odds += std::log(kDetected * here / scene.index.density(layer) + (1.0 - kDetected));
   }
   growth.log_odds += static_cast<double>(missed) * std::log(1.0 - kDetected);
 }
@@ -201,9 +198,10 @@ bool convincing(const Scene& scene, const Growth& growth) {
   const double hypotheses =
       static_cast<double>(scene.dots.size()) * static_cast<double>(scene.blobs.size()) * 1e3;
   constexpr double kNarrowest = 40.0;  // focal length in widths: a lens of 1.4 degrees
-  return growth.labelled >= kLeastToTell &&
-         growth.sketch.focal_px < kNarrowest * scene.width_px && growth.log_odds > 10.0 + std::log(hypotheses) &&
-         2 * growth.labelled > growth.expected;
+  constexpr double kLoosest = 0.004;   // spread, of the image's width
+  return growth.labelled >= kLeastToTell && growth.spread_px < kLoosest * scene.width_px &&
+         growth.sketch.focal_px < kNarrowest * scene.width_px &&
+         growth.log_odds > 10.0 + std::log(hypotheses) && 2 * growth.labelled > growth.expected;
 }
 
 Growth settle(const Scene& scene, const SurveyIndex& survey, const Sketch& start,

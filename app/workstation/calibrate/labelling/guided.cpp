@@ -10,16 +10,16 @@
 namespace dottrack::calibrate {
 namespace {
 
-constexpr std::size_t kMostDots = 60;       // that hypotheses are made from
+constexpr std::size_t kMostDots = 60;  // that hypotheses are made from
 constexpr std::size_t kMostBlobs = 160;
 constexpr std::size_t kMostAnchors = 1500;  // a dot and a blob that it may be
 constexpr std::size_t kMostSettled = 24;
-constexpr double kOffPart = 0.012;          // of the image's width: how far off a guess is
-constexpr double kLeastApart_rad = 0.12;    // two dots of a hypothesis
-constexpr double kWithin = 3.0;             // sigmas of the prior
-constexpr double kSizeFactor = 1.8;         // of a blob's size from what it should be
+constexpr double kOffPart = 0.012;        // of the image's width: how far off a guess is
+constexpr double kLeastApart_rad = 0.12;  // two dots of a hypothesis
+constexpr double kWithin = 3.0;           // sigmas of the prior
+constexpr double kSizeFactor = 1.8;       // of a blob's size from what it should be
 constexpr double kMargin = 12.0;
-constexpr double kPromising = 6.0;          // log odds
+constexpr double kPromising = 6.0;  // log odds
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -129,8 +129,7 @@ class Guesser {
   bool size_fits(const Target& target, int b, double focal_px) const {
     const double diameter_m = scene_.dots[static_cast<std::size_t>(target.dot)].diameter_m;
     if (diameter_m <= 0.0) return true;
-    const double ratio =
-        blob(b).semi_major_px / (0.5 * diameter_m * focal_px / target.distance_m);
+    const double ratio = blob(b).semi_major_px / (0.5 * diameter_m * focal_px / target.distance_m);
     return ratio < kSizeFactor && ratio > 1.0 / kSizeFactor;
   }
 
@@ -171,8 +170,8 @@ class Guesser {
     const double apart = std::acos(std::clamp(first.direction.dot(second.direction), -1.0, 1.0));
     if (apart < kLeastApart_rad) return;
     const double seen = std::acos(std::clamp(rays_[a.blob].dot(rays_[b.blob]), -1.0, 1.0));
-    const double slack = 0.5 * (slack_rad(first) + slack_rad(second)) +
-                         2.0 * prior_.log_focal * apart + 0.1 * apart;
+    const double slack =
+        0.5 * (slack_rad(first) + slack_rad(second)) + 2.0 * prior_.log_focal * apart + 0.1 * apart;
     if (std::abs(apart - seen) > slack) return;
     Sketch s = prior_.about;
     s.rotation = carrying(first.direction, second.direction, rays_[a.blob], rays_[b.blob]);
@@ -219,9 +218,9 @@ class Guesser {
       }
       Sketch s = prior_.about;
       s.focal_px = focal;
-      s.rotation = carrying(first.direction, second.direction,
-                            Vector3d(p.x(), p.y(), focal).normalized(),
-                            Vector3d(q.x(), q.y(), focal).normalized());
+      s.rotation =
+          carrying(first.direction, second.direction, Vector3d(p.x(), p.y(), focal).normalized(),
+                   Vector3d(q.x(), q.y(), focal).normalized());
       consider(s);
     }
   }
@@ -263,7 +262,8 @@ class Guesser {
     for (const Hypothesis& h : found_) {
       if (best.size() == kMostSettled) break;
       const bool known = std::any_of(best.begin(), best.end(), [&](const Hypothesis& other) {
-        const double cosine = 0.5 * ((h.sketch.rotation * other.sketch.rotation.transpose()).trace() - 1.0);
+        const double cosine =
+            0.5 * ((h.sketch.rotation * other.sketch.rotation.transpose()).trace() - 1.0);
         return cosine > std::cos(0.02) &&
                std::abs(std::log(h.sketch.focal_px / other.sketch.focal_px)) < 0.04;
       });

@@ -3,13 +3,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dottrack::calibrate {
 namespace {
 
-constexpr double kSamePlace = 0.2;      // of the spacing
-constexpr double kCarried = 0.4;        // of the labelled dots, at least
+constexpr double kSamePlace = 0.2;  // of the spacing
+constexpr double kCarried = 0.4;    // of the labelled dots, at least
 constexpr std::size_t kSample = 40;
+constexpr std::size_t kMostMatched = 60;
 constexpr std::size_t kMostSettled = 12;
 constexpr int kMostClimbs = 8;
 
@@ -80,6 +82,29 @@ std::vector<Likeness> motions(const Scene& scene, const SurveyIndex& survey,
   return found;
 }
 
+// The motions after which most blobs are found, of a sample of dots.
+std::vector<Likeness> promising(const Scene& scene, const Growth& from,
+                                const std::vector<Likeness>& all) {
+  if (all.size() <= kMostMatched) return all;
+  const double within = std::max(4.0, 4.0 * from.spread_px);
+  const std::size_t step = std::max<std::size_t>(1, scene.dots.size() / (4 * kSample));
+  std::vector<std::pair<int, std::size_t>> scores;  // misses less hits, motion
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    const Sketch sketch = moved(from.sketch, all[m]);
+    int score = 0;
+    for (std::size_t i = 0; i < scene.dots.size(); i += step) {
+      const auto at = seen_at(scene, sketch, static_cast<int>(i));
+      if (scene.dot_layer[i] < 0 || !at) continue;
+      score += scene.index.nearest(scene.dot_layer[i], *at, within) < 0 ? 1 : -3;
+    }
+    scores.emplace_back(score, m);
+  }
+  std::sort(scores.begin(), scores.end());
+  std::vector<Likeness> best;
+  for (std::size_t i = 0; i < kMostMatched; ++i) best.push_back(all[scores[i].second]);
+  return best;
+}
+
 bool higher(const Growth& a, const Growth& b) {
   return a.log_odds > b.log_odds;
 }
@@ -89,7 +114,8 @@ std::vector<Growth> carried(const Scene& scene, const SurveyIndex& survey, const
   const double within = std::max(4.0, 4.0 * from.spread_px);
   const Labels none(scene.dots.size(), kNoBlob);
   std::vector<Growth> rough;
-  for (const Likeness& motion : motions(scene, survey, kinds, from.labels)) {
+  for (const Likeness& motion :
+       promising(scene, from, motions(scene, survey, kinds, from.labels))) {
     Growth other{moved(from.sketch, motion), none, 0.0, 0.0, 0, 0};
     other.labels = match(scene, survey, other.sketch, none, within);
     judge(scene, other);
@@ -131,7 +157,9 @@ std::vector<Growth> likenesses(const Scene& scene, const SurveyIndex& survey,
   std::vector<Growth> others;
   for (int climb = 0; climb < kMostClimbs; ++climb) {
     others = carried(scene, survey, prior, kinds, best);
-    if (others.empty() || !(others.front().log_odds > best.log_odds + 1e-6 * static_cast<double>(best.labelled))) break;
+    if (others.empty() ||
+        !(others.front().log_odds > best.log_odds + 1e-6 * static_cast<double>(best.labelled)))
+      break;
     const bool much = others.front().log_odds > best.log_odds + margin;
     std::swap(best, others.front());
     if (!much) break;

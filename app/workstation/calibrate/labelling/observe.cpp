@@ -19,7 +19,10 @@ class Labeller {
  public:
   Labeller(std::span<const SurveyedDot> dots, const std::vector<CameraInput>& inputs,
            const ObserveOptions& options)
-      : dots_(dots), inputs_(inputs), options_(options), cameras_(inputs.size()),
+      : dots_(dots),
+        inputs_(inputs),
+        options_(options),
+        cameras_(inputs.size()),
         faults_(inputs.size()) {}
 
   std::vector<LabelledCamera>& cameras() { return cameras_; }
@@ -98,8 +101,7 @@ CameraViews views_of(const CameraInput& input, const LabelledCamera& camera) {
     if (growth.labels[i] == kNoBlob) continue;
     const Blob& blob = camera.scene.blobs[static_cast<std::size_t>(growth.labels[i])];
     if (blob.sigma_px > unsure_px) continue;
-    const Eigen::Vector2d off =
-        eccentricity_px(camera.scene, survey, growth, static_cast<int>(i));
+    const Eigen::Vector2d off = eccentricity_px(camera.scene, survey, growth, static_cast<int>(i));
     views.observations.push_back({i, blob.pixel - off, blob.sigma_px});
   }
   return views;
@@ -127,9 +129,9 @@ Result<Observed> observe(std::span<const SurveyedDot> dots, const std::vector<Ca
   if (const auto wrong = why_unbelievable(dots, inputs, cameras)) return fail(*wrong);
   Observed observed;
   observed.remarks = std::move(*remarks);
-  if (const auto remark = looks_mirrored(dots, inputs, cameras)) {
-    observed.remarks.push_back(*remark);
-  }
+  const auto mirror = try_mirror(dots, inputs, cameras);
+  if (!mirror) return tl::unexpected<Error>(mirror.error());
+  if (*mirror) observed.remarks.push_back(**mirror);
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     observed.views.push_back(views_of(inputs[c], cameras[c]));
   }

@@ -16,12 +16,12 @@ constexpr std::size_t kNearDots = 8;    // neighbours a patch is spanned by
 constexpr std::size_t kNearBlobs = 14;  // of a blob
 constexpr std::size_t kOfASize = 5;
 constexpr std::size_t kMinOthers = 2;
-constexpr double kOffPlane = 0.03;      // of the patch's size
-constexpr double kMinSine = 0.35;       // of the angle at the patch's dot
-constexpr double kMaxStretch = 2.6;     // of one side over the other
+constexpr double kOffPlane = 0.03;   // of the patch's size
+constexpr double kMinSine = 0.35;    // of the angle at the patch's dot
+constexpr double kMaxStretch = 2.6;  // of one side over the other
 constexpr double kMinForeshortening = 0.25;
-constexpr double kTolerance = 0.15;     // of the patch's shorter side in the image
-constexpr double kFound = 0.8;          // how probably another dot is found
+constexpr double kTolerance = 0.15;  // of the patch's shorter side in the image
+constexpr double kFound = 0.8;       // how probably another dot is found
 
 using Key = std::array<long, 4>;
 
@@ -119,10 +119,10 @@ class Sighter {
     sides << blob_at(first).pixel - at, blob_at(second).pixel - at;
     if (!plausible(blob, sides)) return;
     const int layer = scene_.index.layer_of(blob);
-    const double within = std::max(1.5, kTolerance * std::min(sides.col(0).norm(),
-                                                               sides.col(1).norm()));
-    const double chance = 1.0 - std::exp(-scene_.index.density(layer) * std::numbers::pi * within *
-                                         within);
+    const double within =
+        std::max(1.5, kTolerance * std::min(sides.col(0).norm(), sides.col(1).norm()));
+    const double chance =
+        1.0 - std::exp(-scene_.index.density(layer) * std::numbers::pi * within * within);
     const double hit = std::log(kFound / chance);
     const double miss = std::log((1.0 - kFound) / (1.0 - chance));
     double odds = 0.0;
@@ -143,13 +143,13 @@ class Sighter {
     keep(blob, first, second, blobs, odds, found);
   }
 
-  void keep(int blob, int first, int second,
-            const std::array<int, SurveyIndex::kNeighbours>& blobs, double odds,
-            std::vector<Sighting>& found) const {
+  void keep(int blob, int first, int second, const std::array<int, SurveyIndex::kNeighbours>& blobs,
+            double odds, std::vector<Sighting>& found) const {
     Eigen::Matrix2d sides;
-    sides << blob_at(first).pixel - blob_at(blob).pixel, blob_at(second).pixel - blob_at(blob).pixel;
-    const int size = static_cast<int>(
-        std::floor(4.0 * std::log2(std::abs((sides * to_sides_).determinant()))));
+    sides << blob_at(first).pixel - blob_at(blob).pixel,
+        blob_at(second).pixel - blob_at(blob).pixel;
+    const int size =
+        static_cast<int>(std::floor(4.0 * std::log2(std::abs((sides * to_sides_).determinant()))));
     Sighting sighting{Labels(scene_.dots.size(), kNoBlob), odds, size};
     const auto label = [&](int dot, int b) {
       if (b < 0) return;
@@ -172,9 +172,8 @@ class Sighter {
 };
 
 void keep_best(std::vector<Sighting>& found, std::size_t most) {
-  std::stable_sort(found.begin(), found.end(), [](const Sighting& a, const Sighting& b) {
-    return a.log_odds > b.log_odds;
-  });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Sighting& a, const Sighting& b) { return a.log_odds > b.log_odds; });
   std::map<int, std::size_t> of_size;
   std::vector<Sighting> kept;
   for (Sighting& sighting : found) {

@@ -42,8 +42,8 @@ struct Sighting {
   int size = 0;  // of the patch in the image, in steps of an eighth
 };
 
-// The best sightings of a kind of patches, best first; some of each size, since a grid may look like
-// a part of itself in another size.
+// The best sightings of a kind of patches, best first; some of each size, since a grid may look
+// like a part of itself in another size.
 std::vector<Sighting> sightings(const Scene& scene, const PatchKind& kind, std::size_t most);
 
 }  // namespace dottrack::calibrate

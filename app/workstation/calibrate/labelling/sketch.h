@@ -11,8 +11,8 @@ namespace dottrack::calibrate {
 
 // q = R P + t;  u = q.xy / q.z;  m = 1 + k1 |u|^2 + k2 |u|^4;  pixel = f (m u.x, a m u.y) + centre
 struct Sketch {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();       // world to camera
-  Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();      // camera
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();   // world to camera
+  Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();  // camera
   double focal_px = 1.0;
   double aspect = 1.0;
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();

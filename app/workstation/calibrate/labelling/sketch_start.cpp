@@ -10,14 +10,14 @@
 namespace dottrack::calibrate {
 namespace {
 
-constexpr double kFlat = 0.25;   // of the longest extent: flat enough to look alike from two sides
-constexpr double kLine = 1e-3;   // of the longest extent: no plane
+constexpr double kFlat = 0.25;  // of the longest extent: flat enough to look alike from two sides
+constexpr double kLine = 1e-3;  // of the longest extent: no plane
 constexpr std::array kFocalLengths{0.6, 1.2, 2.5, 6.0, 15.0};  // of those believed in
 
 struct Spread {
   Eigen::Vector3d middle;
-  Eigen::Matrix3d axes;      // columns, right-handed: along, across, off the points' plane
-  Eigen::Vector3d extents;   // standard deviations along these
+  Eigen::Matrix3d axes;     // columns, right-handed: along, across, off the points' plane
+  Eigen::Vector3d extents;  // standard deviations along these
 };
 
 Spread spread_of(std::span<const Eigen::Vector3d> points) {
@@ -43,8 +43,8 @@ struct FarView {
 };
 
 Eigen::Matrix3d with_third_row(const Eigen::Matrix<double, 2, 3>& rows) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(
-      rows.transpose(), Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows.transpose(),
+                                              Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Eigen::Matrix<double, 3, 2> upright = svd.matrixU() * svd.matrixV().transpose();
   Eigen::Matrix3d rotation;
   rotation.row(0) = upright.col(0).transpose();
@@ -81,8 +81,7 @@ std::vector<FarView> far_rotations(std::span<const Eigen::Vector3d> points,
   }
   std::vector<FarView> views;
   if (spread.extents[2] < kFlat * spread.extents[0] || points.size() < 4) {
-    const Eigen::Matrix2d map =
-        at.leftCols<2>().colPivHouseholderQr().solve(seen).transpose();
+    const Eigen::Matrix2d map = at.leftCols<2>().colPivHouseholderQr().solve(seen).transpose();
     add_views_of_plane(map, spread.axes, views);
   }
   if (spread.extents[2] > 0.02 * spread.extents[0] && points.size() >= 4) {
