@@ -18,6 +18,7 @@ namespace {
 constexpr double kFurthest_m = 100.0;
 constexpr double kNearest_m = 0.02;
 constexpr double kDistanceFactor = 3.0;  // of what was believed; of a dot's size
+constexpr double kSureGain = 15.0;       // of log odds
 constexpr double kPointing_rad = 0.7;    // off what was believed
 
 using Survey = std::vector<SurveyedDot>;
@@ -284,11 +285,15 @@ Result<std::optional<std::string>> try_mirror(std::span<const SurveyedDot> dots,
   const LabelledCamera& first = cameras.front();
   const Survey survey = mirrored(dots, 0);
   const auto in_mirror = unguided(with_dots(first.scene, survey));
-  const double here = first.labellings.front().log_odds;
-  const double there = in_mirror.empty() ? 0.0 : in_mirror.front().log_odds;
-  if (there > here + std::max(20.0, 0.01 * here))
+  if (in_mirror.empty()) return std::nullopt;
+  const Growth& here = first.labellings.front();
+  const Growth& there = in_mirror.front();
+  const double gain = there.log_odds - here.log_odds;
+  const double slight = 0.05 * here.log_odds;
+  if (gain > kSureGain && there.labelled > here.labelled + 2) {
     return fail(mirror_line(inputs.front(), kSomeAxis));
-  if (there < 0.95 * here) return std::nullopt;
+  }
+  if (gain < -slight) return std::nullopt;
   return "the dots look the same in a mirror, so that they cannot tell whether the survey is "
          "right-handed: check that, or give --seeds or --models";
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/workstation/calibrate/labelling/likenesses.h"
 #include "app/workstation/calibrate/labelling/sketch_start.h"
@@ -24,6 +25,20 @@ bool nearly_all(const Scene& scene, const Growth& growth) {
          5 * growth.expected > growth.labels.size();
 }
 
+// Fitted anew from other starts: what grew may have come to rest beside the best fit.
+std::vector<Growth> polished(const Scene& scene, const SurveyIndex& survey,
+                             const SketchPrior& prior, std::vector<Growth> labellings) {
+  for (Growth& growth : labellings) {
+    const Pairs pairs = pairs_of(scene, growth.labels);
+    const double scale = std::max(0.7, 2.0 * growth.spread_px);
+    for (const SketchFit& fit : sketches(pairs.points, pairs.pixels, prior, scale, 1)) {
+      Growth other = settle(scene, survey, fit.sketch, prior, growth.labels, 4.0 * scale);
+      if (other.log_odds > growth.log_odds) growth = std::move(other);
+    }
+  }
+  return labellings;
+}
+
 }  // namespace
 
 std::vector<Growth> labels_from_scratch(const Scene& scene, const SurveyIndex& survey,
@@ -43,7 +58,7 @@ std::vector<Growth> labels_from_scratch(const Scene& scene, const SurveyIndex& s
         if (!best.empty() && growth.log_odds < 0.2 * best.front().log_odds) continue;
         std::vector<Growth> all = likenesses(scene, survey, prior, kinds, growth, kLikeMargin);
         if (!convincing(scene, all.front())) continue;
-        if (nearly_all(scene, all.front())) return all;
+        if (nearly_all(scene, all.front())) return polished(scene, survey, prior, std::move(all));
         if (best.empty() || all.front().log_odds > best.front().log_odds) {
           if (best.empty()) left = std::min(left, kGrownAfterFirst);
           best = std::move(all);
@@ -52,7 +67,7 @@ std::vector<Growth> labels_from_scratch(const Scene& scene, const SurveyIndex& s
       if (left == 0) break;
     }
   }
-  return best;
+  return polished(scene, survey, prior, std::move(best));
 }
 
 }  // namespace dottrack::calibrate

@@ -46,12 +46,22 @@ class Labeller {
  private:
   void label(std::size_t c) {
     label_as(c, options_.blobs, cameras_[c]);
-    if (!options_.either_polarity || !cameras_[c].labellings.empty()) return;
+    if (!options_.either_polarity || beyond_doubt(cameras_[c])) return;
     BlobOptions dark = options_.blobs;
     dark.polarity = core::Polarity::dark;
     LabelledCamera other;
     label_as(c, dark, other);
-    if (!other.labellings.empty()) cameras_[c] = std::move(other);
+    const bool better = !other.labellings.empty() && (cameras_[c].labellings.empty() ||
+                                                      other.labellings.front().log_odds >
+                                                          cameras_[c].labellings.front().log_odds);
+    if (better) cameras_[c] = std::move(other);
+  }
+
+  // The gaps between dark dots are a bright grid too, though not as good a one.
+  static bool beyond_doubt(const LabelledCamera& camera) {
+    if (camera.labellings.empty()) return false;
+    const Growth& best = camera.labellings.front();
+    return 5 * best.labelled > 4 * best.expected && best.spread_px < 1.0;
   }
 
   void label_as(std::size_t c, const BlobOptions& blobs, LabelledCamera& camera) {
