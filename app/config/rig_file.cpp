@@ -13,6 +13,7 @@
 #include "app/config/camera_file.h"
 #include "app/config/complaint.h"
 #include "app/config/rig_rules.h"
+#include "app/config/model_errors.h"
 #include "app/config/table_reader.h"
 #include "app/config/target_admission.h"
 #include "app/config/target_file.h"
@@ -219,6 +220,7 @@ class RigReader {
     camera.width_px = file->dimensions->columns;
     camera.height_px = file->dimensions->rows;
     check_dimensions(camera, path, line);
+    if (file->covariance && complaint_.empty()) set_model_errors(*file->covariance, camera);
   }
 
   void load_dots(NamedTarget& target, double sigma_m) {

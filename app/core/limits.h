@@ -12,6 +12,7 @@ inline constexpr std::size_t kMinDots = 3;
 inline constexpr std::size_t kMinPartialDots = 4;   // of a larger target; kMinDots as a last resort
 inline constexpr std::size_t kMaxRegions = 1024;    // accepted regions a camera
 inline constexpr std::size_t kMaxFinalists = 8192;  // 3-D dot finalists
+inline constexpr std::size_t kMaxModelErrors = 12;  // independent ways to be wrong, a camera
 inline constexpr int kMaxImageWidth = 2048;
 inline constexpr int kMaxImageHeight = 2048;
 

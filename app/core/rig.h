@@ -25,6 +25,9 @@ struct Camera {
   double min_contrast_part = 0.0;  // > 0: and by this part of the background
   int background_px = 21;          // odd width of the surround whose mean is the background
   Polarity polarity = Polarity::bright;
+  // What the model's covariance (S of its file) leaves open: each is the model, wrong by one
+  // standard deviation in one of as many independent ways. None: the model is taken as exact.
+  StaticVector<geometry::CameraModel, kMaxModelErrors> model_errors;
 };
 
 struct TargetDot {

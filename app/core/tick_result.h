@@ -36,7 +36,8 @@ struct DotView {
   float semi_major_px = 0.0F;
   float semi_minor_px = 0.0F;
   float angle_rad = 0.0F;
-  float residual_px = 0.0F;  // from the dot's position, reprojected
+  float residual_px = 0.0F;          // from where the pose puts it
+  float normalised_residual = 0.0F;  // the same in its own standard deviations: 1 on average
 };
 
 struct DotState {

@@ -14,7 +14,10 @@ constexpr double kMinFRatio = 40.0;  // by chance in less than one of a hundred 
 
 bool solve(const Views& views, geometry::Triangulation& result) {
   StaticVector<geometry::SightLine, kMaxCameras> lines;
-  for (const View& view : views) lines.push_back(view.sighting->line);
+  for (const View& view : views) {
+    lines.push_back(view.sighting->line);
+    lines.back().ray.origin -= view.moved_m;
+  }
   return geometry::triangulate(as_span(lines), result) == geometry::TriangulationStatus::ok;
 }
 
@@ -41,7 +44,7 @@ Residuals residuals_of(const Views& views, const Eigen::Vector3d& point_m) {
   Residuals result;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const Sighting& sighting = *views[i].sighting;
-    const Eigen::Vector2d pixel = sighting.pixel_of(point_m);
+    const Eigen::Vector2d pixel = views[i].pixel_of(point_m);
     const double squared = (pixel - sighting.pixel).squaredNorm();
     result.squared_px.push_back(squared);
     result.sum2_px += squared;
@@ -55,7 +58,8 @@ Residuals residuals_of(const Views& views, const Eigen::Vector3d& point_m) {
 // How far outside the view's bounding box the point projects: 0 inside, in box sizes outside.
 double excess(const View& view, const Eigen::Vector3d& point_m) {
   Eigen::Vector2d pixel;
-  if (geometry::project(view.model->model, point_m, pixel) != geometry::OpticsStatus::ok) {
+  if (geometry::project(view.model->model, point_m + view.moved_m, pixel) !=
+      geometry::OpticsStatus::ok) {
     return std::numeric_limits<double>::infinity();
   }
   const Sighting& sighting = *view.sighting;

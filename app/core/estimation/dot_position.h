@@ -16,6 +16,13 @@ struct View {
   std::size_t camera = 0;  // index in the rig
   const core::Camera* model = nullptr;
   const Sighting* sighting = nullptr;
+  // How far the dot has come, when this camera exposes, from where it is at the instant in
+  // question.
+  Eigen::Vector3d moved_m = Eigen::Vector3d::Zero();
+
+  Eigen::Vector2d pixel_of(const Eigen::Vector3d& point_m) const {
+    return sighting->pixel_of(point_m + moved_m);
+  }
 };
 
 using Views = StaticVector<View, kMaxCameras>;

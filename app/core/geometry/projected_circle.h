@@ -25,6 +25,16 @@ OpticsStatus project_disc(const CameraModel& model, const Eigen::Vector3d& centr
 ImageEllipse disc_ellipse(const ProjectionJacobian& jacobian, const Eigen::Vector3d& normal,
                           double radius_m) noexcept;
 
+// How far the middle of the area that a disc covers in the image is from its centre's pixel: a
+// disc's nearer half is shown larger, and lenses bend. To third order in radius over range, from
+// the projection's curvature across the disc by second differences: for a camera without
+// distortion, where the rim is a conic, -r^2 (J u k u + J w k w) with u and w spanning the disc and
+// k = A / (A . (centre - C)). `pixel` and `jacobian` are those of the centre. Zero where the camera
+// does not see all of the rim.
+Eigen::Vector2d disc_eccentricity(const CameraModel& model, const Eigen::Vector3d& centre_m,
+                                  const Eigen::Vector2d& pixel, const ProjectionJacobian& jacobian,
+                                  const Eigen::Vector3d& normal, double radius_m) noexcept;
+
 // Cosine of the angle between the normal and the direction to the camera: positive in front.
 double facing(const CameraModel& model, const Eigen::Vector3d& centre_m,
               const Eigen::Vector3d& normal) noexcept;

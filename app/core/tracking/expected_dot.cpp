@@ -23,6 +23,12 @@ PlacedDot placed(const core::TargetDot& dot, const core::Pose& pose) {
   return result;
 }
 
+Eigen::Vector3d way_of(const Expectation& expected, const PlacedDot& dot, double after_s) {
+  if (!expected.moving) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d lever = dot.place_m - expected.pose.position_m;
+  return after_s * (expected.motion.velocity_m_s + expected.motion.turn_rad_s.cross(lever));
+}
+
 bool faces(const core::Camera& camera, const PlacedDot& dot) {
   return !dot.has_normal() || geometry::facing(camera.model, dot.place_m, dot.normal) >= kMinFacing;
 }
@@ -41,7 +47,8 @@ bool expect(const core::Camera& camera, const geometry::Optics& optics, const Pl
   }
   const geometry::AngularScale& scale = optics.at(expected.pixel);
   if (scale.max_px <= 0.0) return false;
-  expected.radius_px = 0.5 * dot.diameter_m / range_m * scale.max_px;
+  expected.pixels_per_m = scale.max_px / range_m;
+  expected.radius_px = 0.5 * dot.diameter_m * expected.pixels_per_m;
   expected.gate = estimation::dot_gate(
       camera, estimation::expected_semi_major({dot.diameter_m, dot.diameter_m}, range_m, scale));
   expected.has_ellipse = dot.has_normal();

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "app/core/estimation/dot_ellipse.h"
-#include "app/core/estimation/dot_position.h"
 #include "app/core/image/band.h"
 #include "app/core/image/dot_centre.h"
 
@@ -16,9 +15,11 @@ namespace {
 constexpr double kWindowRadii = 3.0;
 constexpr double kGateRadii = 1.5;
 constexpr double kWindowRim_px = 2.0;
+constexpr double kMaxSpread = 4.0;  // that a window grows by, in dot radii
+constexpr double kCentreSigma_px = 0.03;
 
-image::Window window_around(const ExpectedDot& expected) {
-  const double reach = kWindowRadii * expected.radius_px + kWindowRim_px;
+image::Window window_around(const ExpectedDot& expected, double spread_px) {
+  const double reach = kWindowRadii * expected.radius_px + kWindowRim_px + spread_px;
   return {static_cast<int>(std::floor(expected.pixel.x() - reach)),
           static_cast<int>(std::floor(expected.pixel.y() - reach)),
           static_cast<int>(std::ceil(expected.pixel.x() + reach)),
@@ -30,32 +31,33 @@ bool same_region(const image::Region& a, const image::Region& b) {
   return (a.centroid_px - b.centroid_px).squaredNorm() < reach * reach;
 }
 
-core::DotView view_of(const image::Region& region, double residual_px, bool used) {
-  return {.seen = true,
-          .used = used,
-          .pixel = region.centroid_px.cast<float>(),
-          .semi_major_px = static_cast<float>(region.semi_major_px),
-          .semi_minor_px = static_cast<float>(region.semi_minor_px),
-          .angle_rad = static_cast<float>(region.angle_rad),
-          .residual_px = static_cast<float>(residual_px)};
-}
-
 }  // namespace
 
 Follower::Follower(const core::Rig& rig, std::span<const geometry::Optics> optics,
                    image::Identifier& identifier)
-    : rig_(&rig), optics_(optics), identifier_(&identifier) {}
+    : rig_(&rig), optics_(optics), identifier_(&identifier), locator_(rig) {}
 
-void Follower::predict(const core::Pose& previous) {
-  for (std::size_t dot = 0; dot < rig_->target.dots.size(); ++dot) {
-    predicted_[dot] = placed(rig_->target.dots[dot], previous);
+void Follower::predict(const Expectation& expected, std::span<const core::CameraFrame> frames) {
+  expected_ = expected;
+  times_ = {};
+  times_.motion = expected.motion;
+  for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
+    if (!expected.moving || !frames[camera].delivered) continue;
+    times_.after_s[camera] = to_seconds(frames[camera].mid_exposure - expected.at);
   }
+  for (std::size_t dot = 0; dot < rig_->target.dots.size(); ++dot) {
+    predicted_[dot] = placed(rig_->target.dots[dot], expected.pose);
+  }
+}
+
+double Follower::spread_px(const ExpectedDot& expected) const {
+  return std::min(expected_.spread_m * expected.pixels_per_m, kMaxSpread * expected.radius_px);
 }
 
 // The region nearest to the dot's place that may be the dot; false when there is none.
 bool Follower::choose_region(std::size_t camera, const ExpectedDot& expected,
                              image::Regions& considered, image::Region& chosen) {
-  double closest_px = kGateRadii * expected.radius_px;
+  double closest_px = kGateRadii * expected.radius_px + spread_px(expected);
   bool any = false;
   for (const image::Region& region : window_regions_) {
     static_cast<void>(try_push_back(considered, region));
@@ -76,21 +78,24 @@ bool Follower::choose_region(std::size_t camera, const ExpectedDot& expected,
 void Follower::find_dot(std::size_t camera, std::size_t dot, const ImageView& image,
                         image::Regions& considered) {
   const core::Camera& model = rig_->cameras[camera];
+  PlacedDot then = predicted_[dot];
+  then.place_m += way_of(expected_, then, times_.after_s[camera]);
   ExpectedDot expected;
-  if (!expect(model, optics_[camera], predicted_[dot], expected)) return;
-  identifier_->identify(image, window_around(expected), image::band_of(model), expected.gate,
-                        window_regions_);
-  Found& found = found_[camera][dot];
-  if (!choose_region(camera, expected, considered, found.region)) return;
-  found.region.centroid_px = image::dot_centre(image, found.region);
+  if (!expect(model, optics_[camera], then, expected)) return;
+  identifier_->identify(image, window_around(expected, spread_px(expected)), image::band_of(model),
+                        expected.gate, window_regions_);
+  SeenDot& seen = seen_.by_camera[camera][dot];
+  if (!choose_region(camera, expected, considered, seen.region)) return;
+  seen.region.centroid_px = image::dot_centre(image, seen.region);
+  seen.covariance_px2 = kCentreSigma_px * kCentreSigma_px * Eigen::Matrix2d::Identity();
   const double diameter_m = rig_->target.dots[dot].diameter_m;
-  found.any = estimation::make_sighting(model, optics_[camera], {diameter_m, diameter_m},
-                                        found.region, found.sighting);
+  seen.any = estimation::make_sighting(model, optics_[camera], {diameter_m, diameter_m},
+                                       seen.region, seen.sighting);
 }
 
 // No two dots may rest on one region: neither of them is seen by this camera then.
 void Follower::drop_shared_regions(std::size_t camera) {
-  auto& found = found_[camera];
+  auto& found = seen_.by_camera[camera];
   std::array<bool, core::kMaxDots> shared{};
   for (std::size_t i = 0; i < rig_->target.dots.size(); ++i) {
     for (std::size_t j = i + 1; j < rig_->target.dots.size(); ++j) {
@@ -111,161 +116,65 @@ void Follower::update(std::size_t camera, const ImageView& image, image::Regions
   drop_shared_regions(camera);
 }
 
-bool Follower::triangulate_dot(std::size_t dot, estimation::LocatedDot& located) {
-  estimation::Views views;
-  for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
-    if (!counts(camera, dot)) continue;
-    views.push_back({camera, &rig_->cameras[camera], &found_[camera][dot].sighting});
-  }
-  core::DotState& state = result_.dots[dot];
-  state = {};
-  estimation::DotPosition position;
-  if (estimation::locate_dot(views, position)) {
-    located = estimation::triangulated_dot(dot, position.position_m, position.covariance_m2);
-    state.located = true;
-    state.position_m = position.position_m;
-    state.position_sigma_m = std::sqrt(position.covariance_m2.trace());
-    state.diameter_m = position.diameter_m;
-    state.cameras = position.cameras;
-    return true;
-  }
-  if (views.size() != 1) return false;
-  located = estimation::glimpsed_dot(dot, views[0].sighting->line, predicted_[dot].place_m);
-  state.cameras.insert(views[0].camera);
-  return true;
-}
-
-void Follower::triangulate(LocatedDots& located) {
-  located.clear();
-  for (std::size_t dot = 0; dot < rig_->target.dots.size(); ++dot) {
-    estimation::LocatedDot position;
-    if (triangulate_dot(dot, position)) located.push_back(position);
-  }
-}
-
-// A glimpse has no second view to contradict it: the pose must put the dot into its region.
-bool Follower::drop_wrong_glimpses(LocatedDots& located) const {
-  const auto wrong = [&](const estimation::LocatedDot& dot) {
-    if (dot.in_depth) return false;
-    const Eigen::Vector3d place =
-        result_.pose.orientation * rig_->target.dots[dot.dot].position_m + result_.pose.position_m;
-    for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
-      if (!counts(camera, dot.dot)) continue;
-      const estimation::Sighting& glimpse = found_[camera][dot.dot].sighting;
-      return !glimpse.box_contains(glimpse.pixel_of(place));
-    }
-    return true;
-  };
-  const auto kept = std::remove_if(located.begin(), located.end(), wrong);
-  const bool any = kept != located.end();
-  located.erase(kept, located.end());
-  return any;
-}
-
 // The region's ellipse against the disc's in the pose found, through the derivatives at the region.
-bool Follower::has_wrong_shape(std::size_t camera, const PlacedDot& dot, const Found& found) const {
+bool Follower::has_wrong_shape(std::size_t camera, const PlacedDot& dot,
+                               const SeenDot& seen) const {
   const core::Camera& model = rig_->cameras[camera];
   if (!faces(model, dot)) return true;
   const double range_m = (dot.place_m - geometry::centre(model.model)).norm();
   const geometry::ImageEllipse expected = geometry::disc_ellipse(
-      found.sighting.pixels_per_rad, dot.normal, 0.5 * dot.diameter_m / range_m);
-  return !estimation::may_be(expected, estimation::ellipse_of(found.region));
+      seen.sighting.pixels_per_rad, dot.normal, 0.5 * dot.diameter_m / range_m);
+  return !estimation::may_be(expected, estimation::ellipse_of(seen.region));
 }
 
 bool Follower::drop_wrong_shapes() {
   bool any = false;
   for (std::size_t i = 0; i < rig_->target.dots.size(); ++i) {
-    const PlacedDot dot = placed(rig_->target.dots[i], result_.pose);
+    const PlacedDot dot = placed(rig_->target.dots[i], locator_.fit().pose);
     if (!dot.has_normal()) continue;
     for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
-      Found& found = found_[camera][i];
-      if (!found.any || !has_wrong_shape(camera, dot, found)) continue;
-      any = any || counts(camera, i);
-      found.any = false;
+      SeenDot& seen = seen_.by_camera[camera][i];
+      if (!seen.any || !has_wrong_shape(camera, dot, seen)) continue;
+      any = any || seen_.counts(camera, i);
+      seen.any = false;
       ++result_.rejected_ellipse[camera];
     }
   }
   return any;
 }
 
-bool Follower::steps_too_far() const {
-  for (std::size_t dot = 0; dot < rig_->target.dots.size(); ++dot) {
-    const Eigen::Vector3d place =
-        result_.pose.orientation * rig_->target.dots[dot].position_m + result_.pose.position_m;
-    if ((place - predicted_[dot].place_m).norm() > rig_->target.max_step_m) return true;
-  }
-  return false;
-}
-
-Follower::Attempt Follower::locate(LocatedDots& located, const core::Pose& previous) {
-  for (const estimation::LocatedDot& dot : located) {
-    if ((dot.position_m - predicted_[dot.dot].place_m).norm() > rig_->target.max_step_m) {
-      return {core::Reason::step_too_large, false};
-    }
-  }
-  const auto attempt = [&] {
-    return estimation::locate(rig_->target, as_span(located), rig_->limits.max_rms_residual_m,
-                              &previous, result_.pose);
-  };
-  const auto has_pose = [](estimation::LocateStatus status) {
-    return status == estimation::LocateStatus::ok || status == estimation::LocateStatus::residual;
-  };
-  estimation::LocateStatus status = attempt();
-  if (has_pose(status) && drop_wrong_glimpses(located)) status = attempt();
-  if (status == estimation::LocateStatus::ok && steps_too_far()) {
-    return {core::Reason::step_too_large, true};
-  }
-  return {estimation::reason_of(status), has_pose(status)};
-}
-
-void Follower::record_views(const LocatedDots& located) {
-  result_.dots_used = static_cast<std::uint8_t>(located.size());
-  for (const estimation::LocatedDot& dot : located) {
-    core::DotState& state = result_.dots[dot.dot];
-    if (!dot.in_depth) {
-      state.position_m = result_.pose.orientation * rig_->target.dots[dot.dot].position_m +
-                         result_.pose.position_m;
-    }
+void Follower::report(core::Reason reason) {
+  result_.reason = reason;
+  result_.pose = locator_.fit().pose;
+  result_.systematic = locator_.fit().systematic;
+  result_.dots = locator_.dots();
+  result_.dots_used = static_cast<std::uint8_t>(locator_.dots_used());
+  result_.views_used = static_cast<std::uint16_t>(locator_.views_used());
+  result_.views_left_out = static_cast<std::uint16_t>(locator_.views() - locator_.views_used());
+  for (const core::DotState& dot : result_.dots) {
     for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
-      if (found_[camera][dot.dot].any) record_view(camera, dot.dot);
+      if (dot.cameras.contains(camera)) result_.cameras_used.insert(camera);
     }
   }
-}
-
-void Follower::record_view(std::size_t camera, std::size_t dot) {
-  core::DotState& state = result_.dots[dot];
-  const image::Region& region = found_[camera][dot].region;
-  Eigen::Vector2d pixel;
-  if (geometry::project(rig_->cameras[camera].model, state.position_m, pixel) !=
-      geometry::OpticsStatus::ok) {
-    return;
-  }
-  const bool used = state.cameras.contains(camera);
-  state.views[camera] = view_of(region, (pixel - region.centroid_px).norm(), used);
-  if (used) result_.cameras_used.insert(camera);
 }
 
 const FollowResult& Follower::follow(std::span<const core::CameraFrame> frames,
-                                     const core::Pose& previous,
+                                     const Expectation& expected,
                                      std::span<image::Regions* const> regions,
                                      CameraSet distrusted) {
   result_ = FollowResult{};
-  distrusted_ = distrusted;
-  predict(previous);
+  seen_.distrusted = distrusted;
+  predict(expected, frames);
   for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
-    for (Found& found : found_[camera]) found.any = false;
+    for (SeenDot& seen : seen_.by_camera[camera]) seen.any = false;
     regions[camera]->clear();
     if (frames[camera].delivered) update(camera, frames[camera].image, *regions[camera]);
   }
-  LocatedDots located;
-  triangulate(located);
-  Attempt attempt = locate(located, previous);
-  if (attempt.has_pose && drop_wrong_shapes()) {
-    triangulate(located);
-    attempt = locate(located, previous);
+  core::Reason reason = locator_.locate(seen_, expected_, predicted_, times_);
+  if (locator_.has_pose() && drop_wrong_shapes()) {
+    reason = locator_.locate(seen_, expected_, predicted_, times_);
   }
-  result_.reason = attempt.reason;
-  record_views(located);
+  report(reason);
   return result_;
 }
 

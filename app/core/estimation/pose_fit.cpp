@@ -1,0 +1,111 @@
+#include "app/core/estimation/pose_fit.h"
+
+#include <Eigen/LU>
+#include <cmath>
+
+namespace dottrack::estimation {
+namespace {
+
+constexpr int kMaxLinearisations = 5;
+// Metres and radians.
+constexpr double kSmallStep = 1e-6;  // its square over the range is nothing
+constexpr double kFar = 0.01;        // eccentricities are to be found anew
+constexpr int kPoseCoordinates = 6;
+constexpr double kUnlikely = 4.0;  // standard deviations of chi squared that chance may explain
+
+// How the model errors of one camera move the pose, before the information is divided out.
+using Pulls = std::array<Vector6d, core::kMaxModelErrors>;
+
+struct Sums {
+  Matrix6d information = Matrix6d::Zero();
+  Matrix6d within = Matrix6d::Zero();  // model errors, as if each row had its own
+  std::array<Pulls, kMaxCameras> pulls;
+
+  Sums() {
+    for (Pulls& camera : pulls) camera.fill(Vector6d::Zero());
+  }
+  void add(const ViewRow& row) {
+    information.noalias() += row.jacobian.transpose() * row.jacobian;
+    for (std::size_t i = 0; i < row.model_errors.size(); ++i) {
+      const Vector6d pull = row.jacobian.transpose() * row.model_errors[i];
+      within.noalias() += pull * pull.transpose();
+      pulls[row.camera][i] += pull;
+    }
+  }
+  // Model errors, each the same in all rows of its camera.
+  Matrix6d together() const {
+    Matrix6d sum = Matrix6d::Zero();
+    for (const Pulls& camera : pulls) {
+      for (const Vector6d& pull : camera) sum.noalias() += pull * pull.transpose();
+    }
+    return sum;
+  }
+};
+
+// 1, or how far the residuals are beyond chance.
+double variance_factor(double chi2, int freedom) {
+  if (freedom <= 0) return 1.0;
+  const double n = freedom;
+  return chi2 > n + kUnlikely * std::sqrt(2.0 * n) ? chi2 / n : 1.0;
+}
+
+void set_covariance(const Sums& sums, PoseFit& result) {
+  const Matrix6d inverse = sums.information.inverse();
+  const double factor = variance_factor(result.chi2, result.coordinates - kPoseCoordinates);
+  const Matrix6d together = sums.together();
+  const Matrix6d random = sums.information - sums.within;
+  result.systematic = inverse * together * inverse;
+  const Matrix6d covariance = factor * (inverse * (random + together) * inverse);
+  result.pose.covariance = 0.5 * (covariance + covariance.transpose());
+}
+
+FittedView fitted(const ViewRow& row, bool used) {
+  return {used, row.residual_px.norm(), std::sqrt(0.5 * row.residual.squaredNorm())};
+}
+
+}  // namespace
+
+PoseFitStatus PoseFitter::fit(std::span<const DotObservation> views, const CaptureTimes& times,
+                              const geometry::RigidMotion& start, PoseFit& result) {
+  if (2 * views.size() < kPoseCoordinates) return PoseFitStatus::too_few_views;
+  geometry::RigidMotion pose = start;
+  Vector6d step = Vector6d::Zero();
+  double moved = kFar;
+  for (int i = 0; i < kMaxLinearisations; ++i) {
+    if (moved >= kFar) find_eccentricities(*rig_, views, times, pose, offs_px_);
+    linearise(*rig_, views, offs_px_, times, pose, rows_);
+    if (2 * rows_.size() < kPoseCoordinates) return PoseFitStatus::too_few_views;
+    if (!robust_step(as_span(rows_), step, used_)) return PoseFitStatus::degenerate;
+    pose = stepped(pose, step);
+    moved = step.cwiseAbs().maxCoeff();
+    if (moved < kSmallStep) break;
+  }
+  linearise(*rig_, views, offs_px_, times, pose, rows_);
+  test_views(as_span(rows_), Vector6d::Zero(), used_);
+  report(views, pose, result);
+  return result.coordinates < kPoseCoordinates ? PoseFitStatus::degenerate : PoseFitStatus::ok;
+}
+
+void PoseFitter::report(std::span<const DotObservation> views, const geometry::RigidMotion& pose,
+                        PoseFit& result) {
+  result = PoseFit{};
+  result.pose.position_m = pose.translation_m;
+  result.pose.orientation = pose.rotation;
+  result.views.resize(views.size());
+  Sums sums;
+  std::size_t view = 0;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const ViewRow& row = rows_[i];
+    while (views[view].camera != row.camera || views[view].dot != row.dot) ++view;
+    result.views[view] = fitted(row, used_[i]);
+    if (!used_[i]) continue;
+    sums.add(row);
+    result.cameras[row.camera].normal.add(row, 1.0);
+    result.cameras[row.camera].coordinates += 2;
+    result.coordinates += 2;
+    result.chi2 += row.residual.squaredNorm();
+  }
+  if (result.coordinates >= kPoseCoordinates) set_covariance(sums, result);
+}
+
+}  // namespace dottrack::estimation

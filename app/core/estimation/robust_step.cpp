@@ -1,0 +1,82 @@
+#include "app/core/estimation/robust_step.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+namespace dottrack::estimation {
+namespace {
+
+constexpr double kMinPivot = 1e-9;
+constexpr double kMedian = 1.3863;  // of chi squared with two degrees of freedom
+constexpr std::array<double, 5> kWidths = {64.0, 16.0, 4.0, 2.0, 1.0};  // times kWrongView
+constexpr int kMaxTests = 4;
+
+using Squares = StaticVector<double, kMaxCameras * core::kMaxDots>;
+
+bool solve(const NormalEquations& normal, Vector6d& step) {
+  if (!determines_pose(normal.information)) return false;
+  step = normal.information.ldlt().solve(normal.gradient);
+  return true;
+}
+
+// How much larger the squared residuals are than their variances say; at least 1.
+double excess(std::span<const ViewRow> rows, const Vector6d& step) {
+  Squares squares;
+  for (const ViewRow& row : rows) squares.push_back(row.squared(step));
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>((squares.size() - 1) / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  return std::max(1.0, *middle / kMedian);
+}
+
+bool reweighted(std::span<const ViewRow> rows, double width, Vector6d& step) {
+  const double scale = width * kWrongView * excess(rows, step);
+  NormalEquations normal;
+  for (const ViewRow& row : rows) {
+    const double part = scale / (scale + row.squared(step));
+    normal.add(row, part * part);
+  }
+  return solve(normal, step);
+}
+
+bool plain(std::span<const ViewRow> rows, const Flags& used, Vector6d& step) {
+  NormalEquations normal;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (used[i]) normal.add(rows[i], 1.0);
+  }
+  return solve(normal, step);
+}
+
+}  // namespace
+
+bool test_views(std::span<const ViewRow> rows, const Vector6d& step, Flags& used) {
+  const double limit = kWrongView * excess(rows, step);
+  bool changed = false;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool fits = rows[i].squared(step) <= limit;
+    changed = changed || fits != used[i];
+    used[i] = fits;
+  }
+  return changed;
+}
+
+bool determines_pose(const Matrix6d& information) {
+  if (!(information.diagonal().minCoeff() > 0.0)) return false;
+  const Vector6d scale = information.diagonal().cwiseSqrt().cwiseInverse();
+  const Matrix6d unitless = scale.asDiagonal() * information * scale.asDiagonal();
+  return unitless.ldlt().vectorD().minCoeff() > kMinPivot;
+}
+
+bool robust_step(std::span<const ViewRow> rows, Vector6d& step, Flags& used) {
+  used.fill(false);
+  step.setZero();
+  if (rows.empty()) return false;
+  for (const double width : kWidths) {
+    if (!reweighted(rows, width, step)) return false;
+  }
+  for (int i = 0; i < kMaxTests && test_views(rows, step, used); ++i) {
+    if (!plain(rows, used, step)) return false;
+  }
+  return true;
+}
+
+}  // namespace dottrack::estimation
