@@ -20,6 +20,7 @@
 #include "app/config/target_reader.h"
 #include "app/config/text_file.h"
 #include "app/config/unit_reader.h"
+#include "app/config/vehicle_reader.h"
 
 namespace dottrack::config {
 namespace {
@@ -28,6 +29,8 @@ constexpr NumberRule kFrameRate{0.0, 1000.0, "a number of hertz above 0 and up t
 constexpr NumberRule kResidual{0.0, 10.0, "a number of metres above 0 and up to 10"};
 constexpr NumberRule kFalseLock{0.0, 0.5, "a probability above 0 and up to 0.5"};
 constexpr IntegerRule kWatchEvery{0, 1'000'000, "a whole number from 0 (never) to 1000000"};
+constexpr NumberRule kCoast{0.0, 10'000.0, "a number of milliseconds from 0 (never) to 10000",
+                            true};
 constexpr IntegerRule kLostAfter{1, 1'000'000, "a whole number from 1 to 1000000"};
 
 // A camera's name is also the name of a folder and of files.
@@ -65,12 +68,15 @@ class RigReader {
   }
 
   void read_root(const toml::table& root) {
-    TableReader reader(
-        complaint_, root, "the rig file",
-        {"rig", "camera", "target", "tracking", "can", "trigger", "lamp", "loop", "recording"});
+    TableReader reader(complaint_, root, "the rig file",
+                       {"rig", "camera", "target", "vehicle", "tracking", "can", "trigger", "lamp",
+                        "loop", "recording"});
     if (const auto* table = find_table(root, "rig")) read_rig(*table);
     read_cameras(root);
     targets_ = read_targets(complaint_, root);
+    if (const auto* table = find_table(root, "vehicle")) {
+      config_.rig.vehicle = read_vehicle(complaint_, *table);
+    }
     if (const auto* table = find_table(root, "tracking")) read_tracking(*table);
     read_unit(complaint_, root, config_.unit);
     if (complaint_.empty()) load_files();
@@ -179,7 +185,7 @@ class RigReader {
   void read_tracking(const toml::table& table) {
     TableReader reader(complaint_, table, "[tracking]",
                        {"max_rms_residual_m", "lost_after_ticks", "max_false_lock_probability",
-                        "watch_every_ticks"});
+                        "watch_every_ticks", "coast_ms"});
     auto& limits = config_.rig.limits;
     limits.max_rms_residual_m =
         reader.number("max_rms_residual_m", limits.max_rms_residual_m, kResidual);
@@ -189,6 +195,9 @@ class RigReader {
         reader.number("max_false_lock_probability", limits.max_false_lock_probability, kFalseLock);
     limits.watch_every_ticks =
         reader.integer("watch_every_ticks", limits.watch_every_ticks, kWatchEvery);
+    const std::chrono::duration<double, std::milli> coast(
+        reader.number("coast_ms", 1e3 * to_seconds(limits.coast), kCoast));
+    limits.coast = std::chrono::round<Duration>(coast);
   }
 
   std::filesystem::path beside_rig(const std::string& name) const {

@@ -8,6 +8,7 @@
 #include "app/core/geometry/camera_model.h"
 #include "app/core/limits.h"
 #include "hal/base/static_vector.h"
+#include "hal/base/time.h"
 
 namespace dottrack::core {
 
@@ -42,6 +43,15 @@ struct Target {
   double max_step_m = 0.2;  // a dot may not move further between ticks
 };
 
+// How the vehicle can move, whatever it is told: the largest speed and acceleration of its origin
+// and of its turning, in any direction.
+struct MotionLimits {
+  double max_speed_m_s = 2.0;
+  double max_acceleration_m_s2 = 2.0;
+  double max_turn_rate_rad_s = 2.0943951023931953;           // 120 degrees a second
+  double max_turn_acceleration_rad_s2 = 4.1887902047863905;  // 240 degrees a second squared
+};
+
 struct TrackingLimits {
   double max_rms_residual_m = 0.02;
   int lost_after_ticks = 5;
@@ -50,11 +60,14 @@ struct TrackingLimits {
   // While tracking, whole images are searched for a better explanation every so many ticks; 0:
   // never.
   int watch_every_ticks = 1;
+  // Without a pose of the images, the motion so far is carried on for so long; 0: never.
+  Duration coast = std::chrono::milliseconds(500);
 };
 
 struct Rig {
   StaticVector<Camera, kMaxCameras> cameras;
   Target target;
+  MotionLimits vehicle;
   TrackingLimits limits;
 };
 

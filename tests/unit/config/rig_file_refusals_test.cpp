@@ -45,14 +45,14 @@ const std::string kCameraKeys =
 INSTANTIATE_TEST_SUITE_P(
     UnknownKeys, RigFileRefuses,
     testing::Values(
-        Mistake{
-            "AtTheTop", "[tracking]", "[trackin]",
-            "rig.toml:27: unknown key \"trackin\" in the rig file; "
-            "expected one of rig, camera, target, tracking, can, trigger, lamp, loop, recording"},
-        Mistake{
-            "BeforeTheFirstTable", "[rig]", "name = 1\n[rig]",
-            "rig.toml:1: unknown key \"name\" in the rig file; "
-            "expected one of rig, camera, target, tracking, can, trigger, lamp, loop, recording"},
+        Mistake{"AtTheTop", "[tracking]", "[trackin]",
+                "rig.toml:27: unknown key \"trackin\" in the rig file; "
+                "expected one of rig, camera, target, vehicle, tracking, can, trigger, lamp, loop, "
+                "recording"},
+        Mistake{"BeforeTheFirstTable", "[rig]", "name = 1\n[rig]",
+                "rig.toml:1: unknown key \"name\" in the rig file; "
+                "expected one of rig, camera, target, vehicle, tracking, can, trigger, lamp, loop, "
+                "recording"},
         Mistake{"InRig", "frame_rate_hz", "fps",
                 "rig.toml:3: unknown key \"fps\" in [rig]; expected one of name, frame_rate_hz"},
         Mistake{"InCamera", "model", "modell",
@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"InTracking", "lost_after_ticks", "lost_after",
                 "rig.toml:29: unknown key \"lost_after\" in [tracking]; "
                 "expected one of max_rms_residual_m, lost_after_ticks, "
-                "max_false_lock_probability, watch_every_ticks"}),
+                "max_false_lock_probability, watch_every_ticks, coast_ms"}),
     name_of);
 
 INSTANTIATE_TEST_SUITE_P(
