@@ -23,6 +23,7 @@ protocol::BroadcastSettings broadcast_settings(const RigConfig& config) {
   settings.addressing = config.unit.can.addressing;
   settings.rates = config.unit.can.rates;
   settings.identity = identity_of(config);
+  settings.pose = config.unit.can.pose;
   settings.commands = config.unit.can.commands;
   settings.targets = static_cast<std::uint8_t>(config.targets.size());
   return settings;

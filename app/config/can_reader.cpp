@@ -74,13 +74,23 @@ void read_rates(TableReader& reader, bool fd, protocol::Rates& rates) {
   rates.identity_every = read_every(reader, "identity_every", rates.identity_every);
 }
 
+protocol::PoseChoice read_pose_choice(TableReader& reader) {
+  const std::string word = reader.text("pose", "measured");
+  if (word == "filtered") return protocol::PoseChoice::filtered;
+  if (word == "predicted") return protocol::PoseChoice::predicted;
+  if (word != "measured") {
+    reader.complain("pose", in_quotes(word), "\"measured\", \"filtered\" or \"predicted\"");
+  }
+  return protocol::PoseChoice::measured;
+}
+
 }  // namespace
 
 void read_can(Complaint& complaint, const toml::table& table, CanConfig& can) {
   TableReader reader(complaint, table, "[can]",
                      {"interface", "base_id", "extended", "fd", "bit_rate", "data_bit_rate",
                       "max_load", "pose_every", "covariance_every", "motion_every", "cameras_every",
-                      "dots_every", "identity_every", "commands"});
+                      "dots_every", "identity_every", "commands", "pose"});
   can.interface = reader.text("interface", can.interface);
   if (can.interface.empty() || can.interface.size() > 15) {
     reader.complain("interface", in_quotes(can.interface), "a network interface such as can0");
@@ -89,6 +99,7 @@ void read_can(Complaint& complaint, const toml::table& table, CanConfig& can) {
   read_bit_rates(reader, can.addressing.fd, can.bit_rates);
   can.max_load = reader.number("max_load", can.max_load, kMaxLoad);
   read_rates(reader, can.addressing.fd, can.rates);
+  can.pose = read_pose_choice(reader);
   can.commands = reader.boolean("commands", can.commands);
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "app/core/protocol/broadcast_settings.h"
 #include "app/core/protocol/bus_load.h"
 #include "hal/base/camera_set.h"
 #include "hal/base/time.h"
@@ -65,7 +66,8 @@ struct CanConfig {
   protocol::BitRates bit_rates;     // bit_rate, data_bit_rate
   double max_load = 0.7;            // share of the bus that the unit may take
   protocol::Rates rates;            // pose_every, covariance_every ...
-  bool commands = false;            // listen to commands
+  protocol::PoseChoice pose = protocol::PoseChoice::measured;
+  bool commands = false;  // listen to commands
 
   bool operator==(const CanConfig&) const = default;
 };

@@ -21,11 +21,21 @@ struct Pose {
   double rms_residual_m = 0.0;  // of the triangulated dots against the target in this pose
 };
 
-// How the vehicle moves: from this pose and the one of the tick before.
+// How the vehicle moves, from all ticks of a lock.
 struct Motion {
-  bool known = false;                                      // both ticks belong to one lock
+  bool known = false;                                      // the lock has two ticks and more
   Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();  // of the vehicle's origin, world axes
   Eigen::Vector3d rates_rad_s = Eigen::Vector3d::Zero();   // vehicle axes
+};
+
+// What the filter over time makes of it.
+struct FilteredPose {
+  bool known = false;
+  bool coasting = false;  // no pose was found in this tick: by the vehicle's motion alone
+  Pose pose;              // its rms_residual_m means nothing
+  Motion motion;
+  // Velocity (m/s, world axes), then rates (rad/s, vehicle axes).
+  Eigen::Matrix<double, 6, 6> motion_covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
 // How one camera saw one dot.
@@ -95,6 +105,7 @@ struct AcquisitionCounts {
 enum class Relock : std::uint8_t {
   none = 0,
   better_elsewhere = 1,  // acquisition found a better explanation of the images at another place
+  jumped = 2,            // the vehicle is where it cannot have come by itself
 };
 
 struct TickResult {
@@ -103,15 +114,19 @@ struct TickResult {
   State state = State::acquiring;
   Reason reason = Reason::no_frames;
   bool has_pose = false;
-  Pose pose;
-  Motion motion;
+  Pose pose;  // from the images of this tick alone
+  // The part of its covariance that comes from the camera models: the same from tick to tick.
+  Eigen::Matrix<double, 6, 6> systematic = Eigen::Matrix<double, 6, 6>::Zero();
+  FilteredPose filtered;  // at the same instant; while coasting without a pose beside it
   double false_lock_probability = 1.0;  // that the lock is a wrong one, at most; with a pose only
   Relock relock = Relock::none;         // of this tick
   std::uint32_t reset_count = 0;        // acquisitions so far: a new value is a new lock
   std::uint32_t ticks_lost = 0;         // consecutive ticks without a pose
   CameraSet cameras_used;
   std::uint8_t dots_used = 0;
-  bool rig_disagrees = false;  // more cameras contradict each other than can be left out
+  std::uint16_t views_used = 0;
+  std::uint16_t views_left_out = 0;  // seen in a dot's place, but at odds with the others
+  bool rig_disagrees = false;        // more cameras contradict each other than can be left out
   std::array<DotState, kMaxDots> dots{};
   std::array<CameraTick, kMaxCameras> cameras{};
   AcquisitionCounts acquisition;

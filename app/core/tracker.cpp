@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "app/core/acquisition/gathered_evidence.h"
-#include "app/core/estimation/motion.h"
 #include "app/core/estimation/same_place.h"
 #include "app/core/geometry/optics.h"
 #include "app/core/image/identify.h"
@@ -11,6 +10,7 @@
 #include "app/core/stale_images.h"
 #include "app/core/tracking/camera_watch.h"
 #include "app/core/tracking/follow.h"
+#include "app/core/tracking/motion_estimator.h"
 #include "app/core/tracking/shift_evidence.h"
 
 namespace dottrack::core {
@@ -71,6 +71,7 @@ struct Tracker::Memory {
       : rig(r),
         searcher(rig, optics_of(rig, optics), identifier),
         follower(rig, optics, identifier),
+        motion(rig),
         camera_watch(rig.cameras.size()),
         gathered(rig.target, rig.limits) {
     for (std::size_t i = 0; i < kMaxCameras; ++i) considered_of[i] = &considered[i];
@@ -94,6 +95,7 @@ struct Tracker::Memory {
   bool is_better_elsewhere();
   void lock(const tracking::FollowResult& followed, double probability_of_false);
   void accept(const tracking::FollowResult& followed);
+  void filter(const tracking::FollowResult& followed);
   void refuse(Reason reason);
 
   Rig rig;
@@ -101,6 +103,7 @@ struct Tracker::Memory {
   image::Identifier identifier;
   Searcher searcher;
   tracking::Follower follower;
+  tracking::MotionEstimator motion;
   tracking::CameraWatch camera_watch;
   acquisition::GatheredEvidence gathered;
   std::array<image::Regions, kMaxCameras> considered;  // in the dots' windows
@@ -112,9 +115,7 @@ struct Tracker::Memory {
   bool started = false;
   bool searched_last = true;  // the last tick was decided by whole images
   State state = State::acquiring;
-  Pose pose;             // the last one found
-  Time pose_time{};      // when it held
-  bool follows = false;  // it is of the tick before and of the same lock
+  Pose pose;  // the last one found
   double false_lock_probability = 1.0;
 
   // The lock as it was in the images that the watch looks through.
@@ -182,7 +183,7 @@ Reason Tracker::Memory::judge_candidate(Reason doubt) {
 
 void Tracker::Memory::lock(const tracking::FollowResult& followed, double probability_of_false) {
   ++result.reset_count;
-  follows = false;
+  motion.stop();
   false_lock_probability = probability_of_false;
   better_searches = 0;
   gathered.forget();
@@ -193,8 +194,8 @@ void Tracker::Memory::lock(const tracking::FollowResult& followed, double probab
 // 3.2. Where tracking fails, acquisition may find the target in the same images.
 void Tracker::Memory::follow() {
   searched_last = false;
-  const tracking::FollowResult& followed =
-      follower.follow(frames, pose, considered_of, camera_watch.moved());
+  const tracking::FollowResult& followed = follower.follow(
+      frames, motion.expect(result.capture_time, pose), considered_of, camera_watch.moved());
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     result.cameras[i].regions = static_cast<std::uint32_t>(considered[i].size());
     result.cameras[i].rejected_ellipse = followed.rejected_ellipse[i];
@@ -262,31 +263,50 @@ void Tracker::Memory::accept(const tracking::FollowResult& followed) {
   result.reason = Reason::none;
   result.has_pose = true;
   result.pose = followed.pose;
+  result.systematic = followed.systematic;
   keep_sign(pose.orientation, result.pose.orientation);
-  if (follows) {
-    result.motion = estimation::motion_between(pose, pose_time, result.pose, result.capture_time);
-  }
+  filter(followed);
   result.false_lock_probability = false_lock_probability;
   pose = result.pose;
-  pose_time = result.capture_time;
-  follows = true;
   result.ticks_lost = 0;
   result.dots = followed.dots;
   result.dots_used = followed.dots_used;
+  result.views_used = followed.views_used;
+  result.views_left_out = followed.views_left_out;
   result.cameras_used = followed.cameras_used;
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     result.cameras[i].used = followed.cameras_used.contains(i);
   }
 }
 
+// A pose that the vehicle cannot have reached is a reset, never a smear.
+void Tracker::Memory::filter(const tracking::FollowResult& followed) {
+  if (!motion.take_in(trusted, result.pose, result.capture_time, followed.systematic,
+                      follower.evidence())) {
+    motion.start(result.pose, followed.systematic, result.capture_time);
+    result.relock = Relock::jumped;
+    ++result.reset_count;
+  }
+  result.filtered = motion.filtered(result.capture_time);
+  keep_sign(pose.orientation, result.filtered.pose.orientation);
+}
+
 void Tracker::Memory::refuse(Reason reason) {
   result.reason = reason;
-  follows = false;
   better_searches = 0;
   ++result.ticks_lost;
   camera_watch.look({});
+  const Time now = result.capture_time;
+  const bool coasting = state == State::tracking && motion.may_coast(now);
+  if (coasting) {
+    result.filtered = motion.filtered(now);
+    result.filtered.coasting = true;
+    keep_sign(pose.orientation, result.filtered.pose.orientation);
+    return;
+  }
   if (result.ticks_lost >= static_cast<std::uint32_t>(rig.limits.lost_after_ticks)) {
     state = State::acquiring;
+    motion.stop();
   }
 }
 
@@ -315,10 +335,17 @@ const TickResult& Tracker::step(const Frames& frames) {
   return m.result;
 }
 
+FilteredPose Tracker::predicted(Time at) const {
+  FilteredPose pose = memory_->motion.filtered(at);
+  keep_sign(memory_->pose.orientation, pose.pose.orientation);
+  return pose;
+}
+
 void Tracker::forget() {
   memory_->state = State::acquiring;
   memory_->searcher.give_up();
   memory_->gathered.forget();
+  memory_->motion.stop();
 }
 
 void Tracker::readmit_cameras() {

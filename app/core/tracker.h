@@ -26,6 +26,9 @@ class Tracker {
   // frames[i] belongs to camera i of the rig. The result stays valid until the next call.
   const TickResult& step(const std::array<CameraFrame, kMaxCameras>& frames);
 
+  // Where the filter has the target at a time after the last frames: not known without a lock.
+  FilteredPose predicted(Time at) const;
+
   // Drops the lock, if there is one: the next step() looks for the target anew.
   void forget();
 

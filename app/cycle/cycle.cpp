@@ -89,7 +89,11 @@ void Cycle::broadcast() {
   const telemetry::CycleCounters before = record_.counters;
   const RigSize rig{settings_.cameras, settings_.dots};
   const Time now = parts_.clock.now();
-  if (broadcaster_.tell(pose_report(record_, rig, told_, now), deadline, record_.counters)) {
+  const protocol::PoseChoice choice = settings_.broadcast.pose;
+  const core::FilteredPose ahead =
+      choice == protocol::PoseChoice::predicted ? tracker_->predicted(now) : core::FilteredPose{};
+  const SentPose sent = chosen_pose(record_, choice, ahead, now);
+  if (broadcaster_.tell(pose_report(record_, sent, rig, told_, now), deadline, record_.counters)) {
     told_ = before;
   }
   obey(deadline);

@@ -7,6 +7,7 @@ using core::TickResult;
 using protocol::CameraHealth;
 using protocol::Degraded;
 using protocol::DegradedSet;
+using protocol::PoseKind;
 using protocol::Visibility;
 using telemetry::CycleCounters;
 using telemetry::CycleRecord;
@@ -62,23 +63,38 @@ void judge_loop(const CycleRecord& record, const CycleCounters& before, Degraded
   degraded.insert_if(record.can_state != hal::CanState::active, Degraded::bus_trouble);
 }
 
-void report_pose(const TickResult& result, protocol::PoseMessage& message) {
-  message.pose_valid = result.has_pose;
-  if (!result.has_pose) return;
-  message.position_m = result.pose.position_m;
-  message.orientation = result.pose.orientation;
-  message.covariance = result.pose.covariance;
+void report_pose(const TickResult& result, const SentPose& sent, protocol::PoseMessage& message) {
+  message.kind = sent.kind;
+  message.pose_valid = sent.valid;
+  if (!sent.valid) return;
+  message.position_m = sent.pose.position_m;
+  message.orientation = sent.pose.orientation;
+  message.covariance = sent.pose.covariance;
   message.residual_m = result.pose.rms_residual_m;
   message.false_lock_probability = result.false_lock_probability;
-  if (!result.motion.known) return;
-  message.velocity_m_s = result.motion.velocity_m_s;
-  message.rates_rad_s = result.motion.rates_rad_s;
+  if (!result.filtered.motion.known) return;
+  message.velocity_m_s = result.filtered.motion.velocity_m_s;
+  message.rates_rad_s = result.filtered.motion.rates_rad_s;
 }
 
 }  // namespace
 
-protocol::PoseMessage pose_report(const CycleRecord& record, const RigSize& rig,
-                                  const CycleCounters& before, Time now) {
+SentPose chosen_pose(const CycleRecord& record, protocol::PoseChoice choice,
+                     const core::FilteredPose& predicted, Time now) {
+  const TickResult& result = record.result;
+  if (choice == protocol::PoseChoice::measured || !result.filtered.known) {
+    return {PoseKind::measured, result.has_pose, result.pose, record.stamp};
+  }
+  const bool ahead = choice == protocol::PoseChoice::predicted && predicted.known;
+  const core::FilteredPose& pose = ahead ? predicted : result.filtered;
+  const PoseKind kind = result.filtered.coasting ? PoseKind::coasting
+                        : ahead                  ? PoseKind::predicted
+                                                 : PoseKind::filtered;
+  return {kind, true, pose.pose, ahead ? now : record.stamp};
+}
+
+protocol::PoseMessage pose_report(const CycleRecord& record, const SentPose& sent,
+                                  const RigSize& rig, const CycleCounters& before, Time now) {
   const TickResult& result = record.result;
   protocol::PoseMessage message;
   message.state = result.state;
@@ -86,9 +102,9 @@ protocol::PoseMessage pose_report(const CycleRecord& record, const RigSize& rig,
   message.cameras_used = result.cameras_used;
   message.dots_used = result.dots_used;
   message.reset_count = static_cast<std::uint8_t>(result.reset_count);
-  message.mid_exposure = record.stamp;
-  message.age = now - record.stamp;
-  report_pose(result, message);
+  message.mid_exposure = sent.at;
+  message.age = now - sent.at;
+  report_pose(result, sent, message);
   message.dots_known = static_cast<std::uint8_t>(rig.dots);
   for (std::size_t i = 0; i < rig.dots; ++i) message.dots[i] = dot_report(result.dots[i]);
   for (std::size_t i = 0; i < rig.cameras; ++i) {

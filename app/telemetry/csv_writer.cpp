@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <string_view>
 #include <utility>
@@ -15,6 +16,7 @@ using core::TickResult;
 
 constexpr std::array<std::string_view, 6> kAxes = {"x", "y", "z", "roll", "pitch", "yaw"};
 constexpr std::size_t kPoseColumns = 7 + 1 + 21;
+constexpr std::size_t kFilteredColumns = 7 + 21 + 6;
 
 // Fields of one line, with commas between them. Numbers are as short as they can be and still read
 // back to the same value.
@@ -43,18 +45,27 @@ void write_time(const CycleRecord& record, Line& line) {
 }
 
 std::string_view word_of(core::Relock relock) {
+  if (relock == core::Relock::jumped) return "jumped";
   return relock == core::Relock::better_elsewhere ? "better_elsewhere" : "none";
+}
+
+void write_place(const core::Pose& pose, Line& line) {
+  const Eigen::Vector3d& p = pose.position_m;
+  const Eigen::Quaterniond& q = pose.orientation;
+  line << p.x() << p.y() << p.z() << q.x() << q.y() << q.z() << q.w();
+}
+
+void write_covariance(const Eigen::Matrix<double, 6, 6>& covariance, Line& line) {
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column) line << covariance(row, column);
+  }
 }
 
 void write_pose(const TickResult& result, Line& line) {
   if (!result.has_pose) return line.skip(kPoseColumns);
-  const core::Pose& pose = result.pose;
-  const Eigen::Vector3d& p = pose.position_m;
-  const Eigen::Quaterniond& q = pose.orientation;
-  line << p.x() << p.y() << p.z() << q.x() << q.y() << q.z() << q.w() << pose.rms_residual_m;
-  for (int row = 0; row < 6; ++row) {
-    for (int column = row; column < 6; ++column) line << pose.covariance(row, column);
-  }
+  write_place(result.pose, line);
+  line << result.pose.rms_residual_m;
+  write_covariance(result.pose.covariance, line);
 }
 
 void write_motion(const TickResult& result, Line& line) {
@@ -63,15 +74,15 @@ void write_motion(const TickResult& result, Line& line) {
   } else {
     line.skip(1);
   }
-  if (!result.motion.known) return line.skip(6);
-  for (int i = 0; i < 3; ++i) line << result.motion.velocity_m_s[i];
-  for (int i = 0; i < 3; ++i) line << result.motion.rates_rad_s[i];
+  if (!result.filtered.motion.known) return line.skip(6);
+  for (int i = 0; i < 3; ++i) line << result.filtered.motion.velocity_m_s[i];
+  for (int i = 0; i < 3; ++i) line << result.filtered.motion.rates_rad_s[i];
 }
 
 // Of a camera that has been moved, what it sees is given, too: its repair rests on it.
 void write_view(const core::DotView& view, bool moved, Line& line) {
-  if (!view.used && !(moved && view.seen)) return line.skip(3);
-  line << view.pixel.x() << view.pixel.y() << view.residual_px;
+  if (!view.used && !(moved && view.seen)) return line.skip(4);
+  line << view.pixel.x() << view.pixel.y() << view.residual_px << view.normalised_residual;
 }
 
 void write_dot(const TickResult& result, std::size_t i, std::size_t cameras, Line& line) {
@@ -106,16 +117,20 @@ std::array<CountColumn, 14> count_columns(const AcquisitionCounts& counts) {
            {"dots_matched", counts.dots_matched}}};
 }
 
+void header_of_covariance(std::string_view name, Line& line) {
+  for (std::size_t row = 0; row < kAxes.size(); ++row) {
+    for (std::size_t column = row; column < kAxes.size(); ++column) {
+      line << fmt::format("{}_{}_{}", name, kAxes[row], kAxes[column]);
+    }
+  }
+}
+
 void header_of_pose(Line& line) {
   for (const std::string_view name :
        {"x_m", "y_m", "z_m", "qx", "qy", "qz", "qw", "rms_residual_m"}) {
     line << name;
   }
-  for (std::size_t row = 0; row < kAxes.size(); ++row) {
-    for (std::size_t column = row; column < kAxes.size(); ++column) {
-      line << fmt::format("cov_{}_{}", kAxes[row], kAxes[column]);
-    }
-  }
+  header_of_covariance("cov", line);
 }
 
 void header_of_dot(std::size_t dot, const std::vector<std::string>& cameras, Line& line) {
@@ -123,10 +138,48 @@ void header_of_dot(std::size_t dot, const std::vector<std::string>& cameras, Lin
     line << fmt::format("dot{}_{}", dot, name);
   }
   for (const std::string& camera : cameras) {
-    for (const std::string_view name : {"x_px", "y_px", "residual_px"}) {
+    for (const std::string_view name : {"x_px", "y_px", "residual_px", "normalised"}) {
       line << fmt::format("dot{}_{}_{}", dot, camera, name);
     }
   }
+}
+
+void write_filtered(const core::FilteredPose& filtered, Line& line) {
+  if (!filtered.known) {
+    line << "none";
+    return line.skip(kFilteredColumns);
+  }
+  line << (filtered.coasting ? "coasting" : "filtered");
+  write_place(filtered.pose, line);
+  write_covariance(filtered.pose.covariance, line);
+  if (!filtered.motion.known) return line.skip(kAxes.size());
+  for (int i = 0; i < 6; ++i) line << std::sqrt(filtered.motion_covariance(i, i));
+}
+
+// Where the filter is, what the camera models leave open, and how many views there were.
+void write_estimation(const TickResult& result, Line& line) {
+  write_filtered(result.filtered, line);
+  if (result.has_pose) {
+    for (int i = 0; i < 6; ++i) line << std::sqrt(result.systematic(i, i));
+  } else {
+    line.skip(kAxes.size());
+  }
+  line << result.views_used << result.views_left_out;
+}
+
+void header_of_estimation(Line& line) {
+  line << "filter";
+  for (const std::string_view name : {"x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"}) {
+    line << fmt::format("filtered_{}", name);
+  }
+  header_of_covariance("filtered_cov", line);
+  for (const std::string_view name :
+       {"vx_m_s", "vy_m_s", "vz_m_s", "wx_rad_s", "wy_rad_s", "wz_rad_s"}) {
+    line << fmt::format("sigma_{}", name);
+  }
+  for (const std::string_view axis : kAxes) line << fmt::format("systematic_{}", axis);
+  line << "views_used"
+       << "views_left_out";
 }
 
 std::string header(const std::vector<std::string>& cameras, std::size_t dots) {
@@ -152,6 +205,7 @@ std::string header(const std::vector<std::string>& cameras, std::size_t dots) {
         "wx_rad_s", "wy_rad_s", "wz_rad_s", "rig_disagrees"}) {
     line << name;
   }
+  header_of_estimation(line);
   line.end();
   return text;
 }
@@ -185,6 +239,7 @@ void CsvWriter::do_write(const CycleRecord& record) {
   line << result.acquisition.false_lock_probability;
   write_motion(result, line);
   line << result.rig_disagrees;
+  write_estimation(result, line);
   line.end();
   file_.write(line_);
 }

@@ -1,5 +1,6 @@
 #pragma once
-// The records of a run as text: poses.tum for trajectory tools, poses.csv for everything else.
+// The records of a run as text: poses.tum and filtered.tum for trajectory tools, poses.csv
+// for everything else.
 // docs/outputs.md describes the columns.
 
 #include <Eigen/Core>
@@ -20,6 +21,17 @@ std::string tum_line(Time stamp, const Eigen::Vector3d& position_m,
 class TumWriter final : public RecordWriter {
  public:
   explicit TumWriter(OutputFile& file) : file_(file) {}
+
+ private:
+  void do_write(const CycleRecord& record) override;
+
+  OutputFile& file_;
+};
+
+// One line a tick whose pose the filter knows, coasting or not.
+class FilteredTumWriter final : public RecordWriter {
+ public:
+  explicit FilteredTumWriter(OutputFile& file) : file_(file) {}
 
  private:
   void do_write(const CycleRecord& record) override;

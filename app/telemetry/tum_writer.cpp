@@ -16,4 +16,10 @@ void TumWriter::do_write(const CycleRecord& record) {
       tum_line(record.stamp, record.result.pose.position_m, record.result.pose.orientation));
 }
 
+void FilteredTumWriter::do_write(const CycleRecord& record) {
+  const core::FilteredPose& filtered = record.result.filtered;
+  if (!filtered.known) return;
+  file_.write(tum_line(record.stamp, filtered.pose.position_m, filtered.pose.orientation));
+}
+
 }  // namespace dottrack::telemetry

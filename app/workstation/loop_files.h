@@ -15,6 +15,7 @@ namespace dottrack::workstation {
 struct LoopFiles {
   std::filesystem::path out;
   telemetry::OutputFile tum;
+  telemetry::OutputFile filtered_tum;
   telemetry::OutputFile csv;
   std::unique_ptr<rtos::VirtualClock> clock;
   std::unique_ptr<drivers::CandumpCanBus> can_log;  // on that clock
@@ -23,7 +24,7 @@ struct LoopFiles {
 // Makes the folder where it is absent. An error names what cannot be made or written.
 Result<void> make_folder(const std::filesystem::path& folder);
 
-// poses.tum, poses.csv and can.log in `out`, which is made where it is absent.
+// poses.tum, filtered.tum, poses.csv and can.log in `out`, which is made where it is absent.
 Result<LoopFiles> open_loop_files(const std::filesystem::path& out,
                                   std::unique_ptr<rtos::VirtualClock> clock);
 

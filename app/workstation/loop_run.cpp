@@ -39,8 +39,10 @@ LoopRun::LoopRun(const config::RigConfig& config, LoopFiles files, LoopHardware 
                                  config::broadcast_settings(config_))),
       recorder_(*ring_),
       tum_(files_.tum),
+      filtered_tum_(files_.filtered_tum),
       csv_(files_.csv, camera_names(config_), config_.rig.target.dots.size()) {
   recorder_.add(tum_);
+  recorder_.add(filtered_tum_);
   recorder_.add(csv_);
   recorder_.add(tally_);
 }
@@ -56,7 +58,8 @@ bool LoopRun::tick() {
   recorder_.drain();
   note(files_.can_log->flush());
   if (!locked_before && tally_.first_lock_tick() >= 0) draw("first_lock");
-  return fault_.empty() && !files_.tum.failed() && !files_.csv.failed();
+  return fault_.empty() && !files_.tum.failed() && !files_.filtered_tum.failed() &&
+         !files_.csv.failed();
 }
 
 void LoopRun::draw(const fs::path& folder) {
@@ -65,6 +68,7 @@ void LoopRun::draw(const fs::path& folder) {
 
 RunSummary LoopRun::finish(RunFacts facts) {
   note(files_.tum.finish());
+  note(files_.filtered_tum.finish());
   note(files_.csv.finish());
   facts.allocations_in_loop = heap_calls_;
   facts.allocation_trap_complete = AllocationTrap::is_complete();

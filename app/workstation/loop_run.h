@@ -70,6 +70,7 @@ class LoopRun {
   cycle::Cycle cycle_;
   telemetry::Recorder recorder_;
   telemetry::TumWriter tum_;
+  telemetry::FilteredTumWriter filtered_tum_;
   telemetry::CsvWriter csv_;
   RunTally tally_;
   std::uint64_t heap_calls_ = 0;

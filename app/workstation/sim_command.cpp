@@ -78,10 +78,19 @@ void print_errors(const Accuracy& a) {
   print_row("normalised error", fmt::format("{:.1f} squared, mean (6 is true)", a.nees_mean));
 }
 
+void print_filter(const FilterAccuracy& f) {
+  print_row("filtered pose", fmt::format("{:.2f} mm RMS, {:.3f} deg RMS, normalised {:.1f}",
+                                         f.position_rms_mm, f.attitude_rms_deg, f.nees_mean));
+  if (f.coasting_ticks == 0) return;
+  print_row("coasting",
+            fmt::format("{} ticks, {:.1f} mm RMS", f.coasting_ticks, f.coasting_rms_mm));
+}
+
 void print_summary(const SimSummary& sim, const SimCommand& command) {
   print_lock(sim.loop);
   print_row("wrong-lock ticks", std::to_string(sim.accuracy.wrong_lock_ticks));
   if (sim.accuracy.compared > 0) print_errors(sim.accuracy);
+  if (sim.filtered.compared > 0) print_filter(sim.filtered);
   print_row("allocations in the loop", std::to_string(sim.loop.allocations_in_loop));
   print_row("speed", fmt::format("{:.1f} ticks a second, rendering included", sim.ticks_per_s));
   fmt::print("results: {}", command.out.string());

@@ -65,6 +65,13 @@ std::vector<std::pair<std::string, std::string>> truth_members(const Scene& scen
           {"attitude_rms_deg", number(a.attitude_rms_deg)},
           {"attitude_max_deg", number(a.attitude_max_deg)},
           {"nees_mean", std::isfinite(a.nees_mean) ? number(a.nees_mean) : "null"},
+          {"filtered_position_rms_mm", number(sim.filtered.position_rms_mm)},
+          {"filtered_position_max_mm", number(sim.filtered.position_max_mm)},
+          {"filtered_attitude_rms_deg", number(sim.filtered.attitude_rms_deg)},
+          {"filtered_nees_mean",
+           std::isfinite(sim.filtered.nees_mean) ? number(sim.filtered.nees_mean) : "null"},
+          {"coasting_ticks", std::to_string(sim.filtered.coasting_ticks)},
+          {"coasting_rms_mm", number(sim.filtered.coasting_rms_mm)},
           {"ticks_per_s", number(sim.ticks_per_s)}};
 }
 
@@ -115,6 +122,7 @@ class Simulation {
     sim.rows = truth_.rows();
     sim.ticks_per_s = static_cast<double>(sim.rows.size()) / took.count();
     sim.accuracy = accuracy_of(sim.rows);
+    sim.filtered = filter_accuracy_of(sim.rows);
     finish(sim);
     return sim;
   }

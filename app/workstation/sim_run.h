@@ -31,6 +31,7 @@ struct SimOptions {
 struct SimSummary {
   RunSummary loop;
   Accuracy accuracy;
+  FilterAccuracy filtered;
   std::vector<TruthRow> rows;  // one a tick
   std::uint64_t ticks_asked = 0;
   double ticks_per_s = 0.0;  // rendering and everything, once the still hall is rendered

@@ -75,6 +75,32 @@ Accuracy accuracy_of(std::span<const TruthRow> rows) {
   return sum;
 }
 
+FilterAccuracy filter_accuracy_of(std::span<const TruthRow> rows) {
+  FilterAccuracy sum;
+  for (const TruthRow& row : rows) {
+    if (!row.filtered_error) continue;
+    ++sum.compared;
+    const double off_mm = row.filtered_error->position_mm();
+    const double off_deg = row.filtered_error->attitude_deg();
+    sum.position_rms_mm += off_mm * off_mm;
+    sum.attitude_rms_deg += off_deg * off_deg;
+    sum.position_max_mm = std::max(sum.position_max_mm, off_mm);
+    sum.nees_mean += row.filtered_error->nees;
+    if (!row.coasting) continue;
+    ++sum.coasting_ticks;
+    sum.coasting_rms_mm += off_mm * off_mm;
+  }
+  if (sum.compared == 0) return sum;
+  const auto count = static_cast<double>(sum.compared);
+  sum.position_rms_mm = std::sqrt(sum.position_rms_mm / count);
+  sum.attitude_rms_deg = std::sqrt(sum.attitude_rms_deg / count);
+  sum.nees_mean /= count;
+  if (sum.coasting_ticks > 0) {
+    sum.coasting_rms_mm = std::sqrt(sum.coasting_rms_mm / static_cast<double>(sum.coasting_ticks));
+  }
+  return sum;
+}
+
 void TruthRecord::do_write(const telemetry::CycleRecord& record) {
   TruthRow row;
   row.tick = record.result.tick;
@@ -90,6 +116,9 @@ void TruthRecord::do_write(const telemetry::CycleRecord& record) {
     row.position_m = record.result.pose.position_m;
     if (row.truth) row.error = error_of(record.result.pose, *row.truth);
   }
+  const core::FilteredPose& filtered = record.result.filtered;
+  row.coasting = filtered.coasting;
+  if (filtered.known && row.truth) row.filtered_error = error_of(filtered.pose, *row.truth);
   rows_.push_back(row);
 }
 

@@ -52,6 +52,8 @@ struct TruthRow {
   std::optional<TruePose> truth;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // reported
   std::optional<PoseError> error;                        // with both
+  std::optional<PoseError> filtered_error;               // of the filter's pose, coasting or not
+  bool coasting = false;
   int cameras_used = 0;
   int dots_used = 0;
   Duration cycle{};
@@ -70,6 +72,20 @@ struct Accuracy {
 };
 
 Accuracy accuracy_of(std::span<const TruthRow> rows);
+
+// The filter's poses against the truth.
+struct FilterAccuracy {
+  std::uint64_t compared = 0;
+  std::uint64_t coasting_ticks = 0;
+  double position_rms_mm = 0.0;
+  double position_max_mm = 0.0;
+  double attitude_rms_deg = 0.0;
+  double nees_mean = 0.0;
+  // RMS over the ticks that coast.
+  double coasting_rms_mm = 0.0;
+};
+
+FilterAccuracy filter_accuracy_of(std::span<const TruthRow> rows);
 
 // Keeps a row a tick and writes the truth, `t x y z qx qy qz qw`, for the ticks that have one.
 class TruthRecord final : public telemetry::RecordWriter {

@@ -54,7 +54,8 @@ void set_covariance(const Sums& sums, PoseFit& result) {
   const double factor = variance_factor(result.chi2, result.coordinates - kPoseCoordinates);
   const Matrix6d together = sums.together();
   const Matrix6d random = sums.information - sums.within;
-  result.systematic = inverse * together * inverse;
+  result.systematic = factor * (inverse * together * inverse);
+  for (CameraEvidence& camera : result.cameras) camera.normal.scale(1.0 / factor);
   const Matrix6d covariance = factor * (inverse * (random + together) * inverse);
   result.pose.covariance = 0.5 * (covariance + covariance.transpose());
 }

@@ -17,6 +17,10 @@ struct NormalEquations {
     information.noalias() += weight * row.jacobian.transpose() * row.jacobian;
     gradient.noalias() += weight * row.jacobian.transpose() * row.residual;
   }
+  void scale(double factor) {
+    information *= factor;
+    gradient *= factor;
+  }
 };
 
 using Flags = std::array<bool, kMaxCameras * core::kMaxDots>;

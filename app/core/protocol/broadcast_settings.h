@@ -10,9 +10,14 @@
 
 namespace dottrack::protocol {
 
+// Which pose goes out as the pose. The first has gaps where the target is not seen; the others go on
+// for as long as the filter may coast, and say so.
+enum class PoseChoice : std::uint8_t { measured, filtered, predicted };
+
 struct BroadcastSettings {
   Addressing addressing;
   Rates rates;
+  PoseChoice pose = PoseChoice::measured;
   IdentityMessage identity;
   DegradedSet standing;      // reasons that hold as long as the program runs
   bool commands = false;     // listen to them

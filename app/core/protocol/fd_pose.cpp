@@ -26,6 +26,7 @@ void put_status(const PoseMessage& message, const RawPose& pose, LongPayload& pa
   put(s::kReason, static_cast<std::uint64_t>(message.reason), payload);
   put(s::kCamerasUsed, message.cameras_used.bits(), payload);
   put(s::kDotsUsed, std::min<std::uint64_t>(message.dots_used, core::kMaxDots), payload);
+  put(s::kPoseKind, static_cast<std::uint64_t>(message.kind), payload);
   put(s::kResetCount, message.reset_count, payload);
 }
 

@@ -55,6 +55,7 @@ std::uint64_t status_word(const PoseMessage& message, const RawPose& pose) {
          put(s::kReason, static_cast<std::uint64_t>(message.reason)) |
          put(s::kCamerasUsed, message.cameras_used.bits()) |
          put(s::kDotsUsed, std::min<std::uint64_t>(message.dots_used, core::kMaxDots)) |
+         put(s::kPoseKind, static_cast<std::uint64_t>(message.kind)) |
          put(s::kResetCount, message.reset_count);
 }
 

@@ -29,6 +29,13 @@ enum class CameraHealth : std::uint8_t {
   moved = 7,  // stands no longer as its model says: left out
 };
 
+enum class PoseKind : std::uint8_t {
+  measured = 0,   // from the pictures of one instant alone
+  filtered = 1,   // from the pictures before, too
+  predicted = 2,  // carried on to the moment of sending
+  coasting = 3,   // by the motion alone: the target is not seen
+};
+
 enum class Visibility : std::uint8_t { not_seen = 0, one_camera = 1, located = 2 };
 
 struct DotReport {
@@ -45,9 +52,10 @@ struct PoseMessage {
   std::uint8_t dots_used = 0;
   std::uint8_t reset_count = 0;  // locks so far, modulo 256
   DegradedSet degraded;
-  Time mid_exposure{};  // whole microseconds on the bus, modulo 2^48 (8.9 years)
+  Time mid_exposure{};  // when the pose holds; whole microseconds on the bus, modulo 2^48 (8.9 years)
   Duration age{};       // from the middle of the exposure until now
 
+  PoseKind kind = PoseKind::measured;
   bool pose_valid = false;  // false: nothing below means anything but dots and cameras
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();             // T_world_vehicle
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // body to world, unit

@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"Key", "commands", "listen",
                 ":44: unknown key \"listen\" in [can]; expected one of interface, base_id, "
                 "extended, fd, bit_rate, data_bit_rate, max_load, pose_every, covariance_every, "
-                "motion_every, cameras_every, dots_every, identity_every, commands"},
+                "motion_every, cameras_every, dots_every, identity_every, commands, pose"},
         Mistake{"BaseIdWithoutExtended", "extended = true\n", "",
                 ":33: base_id is 419364864; expected a whole number from 0 to 0x7C0, with extended "
                 "= true to 0x1FFFFFC0"},

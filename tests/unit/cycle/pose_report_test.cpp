@@ -34,8 +34,12 @@ telemetry::CycleRecord good_tick() {
   return record;
 }
 
+SentPose measured(const telemetry::CycleRecord& record) {
+  return chosen_pose(record, protocol::PoseChoice::measured, {}, record.stamp);
+}
+
 protocol::PoseMessage report(const telemetry::CycleRecord& record) {
-  return pose_report(record, kRig, {}, Time(milliseconds(1025)));
+  return pose_report(record, measured(record), kRig, {}, Time(milliseconds(1025)));
 }
 
 // The one reason for which a report is degraded.
@@ -63,7 +67,7 @@ TEST(PoseReport, WithoutAPoseHasNothingThatDescribesOne) {
   telemetry::CycleRecord record = good_tick();
   record.result.has_pose = false;
   record.result.reason = core::Reason::residual;
-  record.result.motion.known = true;
+  record.result.filtered.motion.known = true;
   const protocol::PoseMessage message = report(record);
   EXPECT_FALSE(message.pose_valid);
   EXPECT_FALSE(message.covariance);
@@ -119,7 +123,8 @@ TEST(PoseReport, EveryReasonOfTheLoopIsToldOnce) {
   telemetry::CycleRecord record = good_tick();
   record.counters.deadline_misses = 5;
   expect_only(record, Degraded::tick_missed);
-  EXPECT_TRUE(pose_report(record, kRig, record.counters, record.stamp).degraded.empty())
+  EXPECT_TRUE(
+      pose_report(record, measured(record), kRig, record.counters, record.stamp).degraded.empty())
       << "the message before told of it";
   record = good_tick();
   record.counters.sends_failed = 1;
@@ -133,6 +138,43 @@ TEST(PoseReport, EveryReasonOfTheLoopIsToldOnce) {
   record = good_tick();
   record.can_state = hal::CanState::passive;
   expect_only(record, Degraded::bus_trouble);
+}
+
+// The filter's pose a metre further on, and where it will be when the message goes out two.
+TEST(PoseReport, TellsThePoseThatWasAskedForAndWhatItIs) {
+  telemetry::CycleRecord record = good_tick();
+  const Time now(milliseconds(1025));
+  core::FilteredPose ahead;
+  ahead.known = true;
+  ahead.pose.position_m.x() = 2.0;
+  const auto told = [&](protocol::PoseChoice choice) {
+    return pose_report(record, chosen_pose(record, choice, ahead, now), kRig, {}, now);
+  };
+  using protocol::PoseChoice;
+  using protocol::PoseKind;
+  EXPECT_EQ(told(PoseChoice::filtered).kind, PoseKind::measured) << "the filter knows nothing yet";
+  record.result.filtered.known = true;
+  record.result.filtered.pose.position_m.x() = 1.0;
+  EXPECT_EQ(told(PoseChoice::measured).kind, PoseKind::measured);
+  EXPECT_EQ(told(PoseChoice::measured).position_m.x(), 0.0);
+  EXPECT_EQ(told(PoseChoice::filtered).kind, PoseKind::filtered);
+  EXPECT_EQ(told(PoseChoice::filtered).position_m.x(), 1.0);
+  EXPECT_EQ(told(PoseChoice::filtered).mid_exposure, record.stamp);
+  EXPECT_EQ(told(PoseChoice::predicted).kind, PoseKind::predicted);
+  EXPECT_EQ(told(PoseChoice::predicted).position_m.x(), 2.0);
+  EXPECT_EQ(told(PoseChoice::predicted).mid_exposure, now);
+  EXPECT_EQ(told(PoseChoice::predicted).age, Duration{});
+
+  record.result.has_pose = false;
+  record.result.reason = core::Reason::too_few_dots;
+  record.result.filtered.coasting = true;
+  EXPECT_FALSE(told(PoseChoice::measured).pose_valid);
+  for (const PoseChoice choice : {PoseChoice::filtered, PoseChoice::predicted}) {
+    EXPECT_TRUE(told(choice).pose_valid);
+    EXPECT_EQ(told(choice).kind, PoseKind::coasting);
+    EXPECT_EQ(told(choice).reason, core::Reason::too_few_dots);
+    EXPECT_EQ(told(choice).false_lock_probability, 1.0);
+  }
 }
 
 }  // namespace

@@ -83,6 +83,7 @@ TEST_P(Pose, StatusIsAsItWas) {
     ASSERT_EQ(got(of("Status", "OutOfRange")), 0.0);
     ASSERT_EQ(got(of("Status", "CamerasUsed")), sent.cameras_used.bits());
     ASSERT_EQ(got(of("Status", "DotsUsed")), sent.dots_used);
+    ASSERT_EQ(got(of("Status", "PoseKind")), static_cast<int>(sent.kind));
     ASSERT_EQ(got(of("Status", "ResetCount")), sent.reset_count);
     ASSERT_EQ(got.raw(of("Quality", "Degraded")), sent.degraded.bits());
   }

@@ -40,6 +40,7 @@ inline PoseMessage random_message(std::mt19937_64& random) {
   message.reason = static_cast<core::Reason>(random() % 15);
   message.cameras_used = CameraSet(static_cast<std::uint16_t>(random()));
   message.dots_used = static_cast<std::uint8_t>(random() % 17);
+  message.kind = static_cast<PoseKind>(random() % 4);
   message.reset_count = static_cast<std::uint8_t>(random());
   message.degraded = DegradedSet(static_cast<std::uint16_t>(random() % (1U << kDegradedReasons)));
   message.mid_exposure = Time(Duration(static_cast<std::int64_t>(random() >> 7U)));
@@ -54,7 +55,7 @@ inline PoseMessage random_message(std::mt19937_64& random) {
   message.rates_rad_s = random_vector(random, 16.0);
   message.dots_known = static_cast<std::uint8_t>(random() % 17);
   for (DotReport& dot : message.dots) dot = random_dot(random);
-  for (CameraHealth& camera : message.cameras) camera = static_cast<CameraHealth>(random() % 7);
+  for (CameraHealth& camera : message.cameras) camera = static_cast<CameraHealth>(random() % 8);
   return message;
 }
 

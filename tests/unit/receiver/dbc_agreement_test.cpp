@@ -103,6 +103,7 @@ void compare_status(Said& said, const dottrack_pose& pose) {
   EXPECT_EQ(said.physical("Reason"), pose.reason);
   EXPECT_EQ(said.physical("CamerasUsed"), pose.cameras_used);
   EXPECT_EQ(said.physical("DotsUsed"), pose.dots_used);
+  EXPECT_EQ(said.physical("PoseKind"), pose.kind);
   EXPECT_EQ(said.physical("ResetCount"), pose.reset_count);
   EXPECT_EQ(said.physical("MidExposure"), static_cast<double>(pose.capture_us));
   EXPECT_NEAR(said.physical("Age") * 1e6, pose.age_us, 1e-3);
@@ -190,7 +191,7 @@ void compare_rest(Said& said, const dottrack_pose& pose) {
 TEST(ReceiverAgreesWithTheDbc, AboutEverySignalOfRandomGroups) {
   std::mt19937_64 random(1);
   std::size_t compared = 0;
-  for (unsigned i = 0; i < 2000; ++i) {
+  for (unsigned i = 0; i < 2100; ++i) {
     const Frames frames = frames_of(random_group(random, i % 2 == 1));
     Listener listener;
     ASSERT_EQ(listener.push(frames, 12345), DOTTRACK_FRESH);
@@ -268,8 +269,10 @@ TEST(ReceiverAgreesWithTheDbc, AboutTheWordsOfEveryNumber) {
   compare("DOTTRACK_Status", "Reason", dottrack_reason_text);
   compare("DOTTRACK_FdPose", "Reason", dottrack_reason_text);
   compare("DOTTRACK_Cameras", "Camera16", dottrack_health_text);
+  compare("DOTTRACK_Status", "PoseKind", dottrack_kind_text);
+  compare("DOTTRACK_FdPose", "PoseKind", dottrack_kind_text);
   compare("DOTTRACK_Reply", "Result", dottrack_result_text);
-  EXPECT_EQ(words, 2U + 16U + 16U + 8U + 6U);
+  EXPECT_EQ(words, 2U + 16U + 16U + 8U + 4U + 4U + 6U);
 }
 
 }  // namespace

@@ -58,7 +58,9 @@ void add_classic_pose(const Group& group, Frames& frames) {
   const auto add = [&](unsigned message) -> dottrack_frame& {
     return frames.emplace_back(blank(message, group.sequence));
   };
-  put_status(add(kStatus), 16, group);
+  dottrack_frame& status = add(kStatus);
+  put_status(status, 16, group);
+  put_bits(status, 53, 2, group.kind);
   put_bits(add(kTime), 16, 48, group.capture_us);
   dottrack_frame& quality = add(kQuality);
   put_bits(quality, 16, 16, group.age);
@@ -88,6 +90,7 @@ void add_fd_pose(const Group& group, Frames& frames) {
   put_row(frame, 304, 16, group.sigma, 0, 6);
   put_bits(frame, 400, 5, group.dots_follow);
   put_row(frame, 405, 7, group.correlation, 0, 15);
+  put_bits(frame, 510, 2, group.kind);
 }
 
 void add_motion(const Group& group, Frames& frames) {
@@ -214,6 +217,7 @@ Group random_group(std::mt19937_64& random, bool fd) {
   group.reason = pick<std::uint8_t>(random, 0, 255);
   group.cameras_used = pick<std::uint16_t>(random, 0, 65535);
   group.dots_used = pick<std::uint8_t>(random, 0, 16);
+  group.kind = pick<std::uint8_t>(random, 0, 3);
   group.reset_count = pick<std::uint8_t>(random, 0, 255);
   group.capture_us = random() & kClockMask;
   group.age = pick<std::uint16_t>(random, 0, 2000);
@@ -229,7 +233,7 @@ Group random_group(std::mt19937_64& random, bool fd) {
   for (auto& value : group.velocity) value = pick_or_none(random, 32767, -32768);
   for (auto& value : group.rates) value = pick_or_none(random, 32767, -32768);
   pick_covariance(random, group);
-  for (auto& value : group.health) value = pick<std::uint8_t>(random, 0, 6);
+  for (auto& value : group.health) value = pick<std::uint8_t>(random, 0, 7);
   pick_dots(random, group);
   if (random() % 4 == 0) take_pose_away(group);
   return group;

@@ -47,6 +47,7 @@ struct Group {
   std::uint8_t reason = 0;
   std::uint16_t cameras_used = 0x0003;
   std::uint8_t dots_used = 5;
+  std::uint8_t kind = 0;
   std::uint8_t reset_count = 1;
   std::uint64_t capture_us = 0;
   std::uint16_t age = 200;  // 20 ms

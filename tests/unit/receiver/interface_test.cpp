@@ -100,6 +100,8 @@ TEST(ReceiverInterface, EveryNumberHasAWord) {
   EXPECT_STREQ(dottrack_state_text(DOTTRACK_TRACKING), "tracking");
   EXPECT_STREQ(dottrack_reason_text(14), "stopped");
   EXPECT_STREQ(dottrack_degraded_text(14), "rig_disagrees");
+  EXPECT_STREQ(dottrack_kind_text(3), "coasting");
+  EXPECT_STREQ(dottrack_kind_text(4), "unknown");
   EXPECT_STREQ(dottrack_health_text(7), "moved");
   EXPECT_STREQ(dottrack_result_text(5), "failed");
 }

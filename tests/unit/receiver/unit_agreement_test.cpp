@@ -53,6 +53,7 @@ TEST_P(ReceiverAgreesWithTheUnit, AboutStatusAndPose) {
     ASSERT_EQ(pose.state, static_cast<std::uint8_t>(sent.state));
     ASSERT_EQ(pose.reason, static_cast<std::uint8_t>(sent.reason));
     ASSERT_EQ(pose.dots_used, sent.dots_used);
+    ASSERT_EQ(pose.kind, static_cast<std::uint8_t>(sent.kind));
     ASSERT_EQ(pose.reset_count, sent.reset_count);
     ASSERT_TRUE(pose.valid);
     ASSERT_GE(pose.age_us * 1000.0, static_cast<double>(sent.age.count()));

@@ -42,7 +42,7 @@ inline CycleRecord record_with_pose(std::uint64_t tick) {
   result.acquisition.dots_matched = 4;
   result.acquisition.false_lock_probability = 0.25;
   result.false_lock_probability = 0.125;
-  result.motion = {true, {0.5, -0.25, 0.0}, {0.0, 0.0, 1.5}};
+  result.filtered.motion = {true, {0.5, -0.25, 0.0}, {0.0, 0.0, 1.5}};
   return record;
 }
 

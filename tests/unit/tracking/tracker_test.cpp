@@ -80,15 +80,15 @@ TEST_F(TrackerTest, ASteadyTargetGivesASteadyPoseAndASmallCovariance) {
 TEST_F(TrackerTest, TellsHowTheVehicleMovesFromTheSecondTickOfALockOn) {
   lock();
   auto frames = room_.frames();
-  EXPECT_FALSE(tracker_.step(frames).motion.known);  // the pictures are of the same instant
+  EXPECT_FALSE(tracker_.step(frames).filtered.motion.known);  // the pictures are of the same instant
   show(PaintedRoom::pose_at(middle_.position_m.x() + 0.05, middle_.position_m.y(), 0.3));
   frames = room_.frames();
   for (CameraFrame& frame : frames) frame.mid_exposure += std::chrono::milliseconds(100);
   const TickResult& moved = tracker_.step(frames);
   ASSERT_TRUE(moved.has_pose);
-  ASSERT_TRUE(moved.motion.known);
-  EXPECT_NEAR(moved.motion.velocity_m_s.x(), 0.5, 0.05);
-  EXPECT_NEAR(moved.motion.velocity_m_s.y(), 0.0, 0.05);
+  ASSERT_TRUE(moved.filtered.motion.known);
+  EXPECT_NEAR(moved.filtered.motion.velocity_m_s.x(), 0.5, 0.05);
+  EXPECT_NEAR(moved.filtered.motion.velocity_m_s.y(), 0.0, 0.05);
 }
 
 TEST_F(TrackerTest, ALockKeepsItsProbabilityOfBeingAWrongOne) {
@@ -106,7 +106,7 @@ TEST_F(TrackerTest, ForgetsItsLockWhenToldAndLooksAnew) {
   const TickResult& result = tracker_.step(room_.frames());
   expect_locked(result, middle_);
   EXPECT_EQ(result.reset_count, 2U);
-  EXPECT_FALSE(result.motion.known);
+  EXPECT_FALSE(result.filtered.motion.known);
 }
 
 TEST_F(TrackerTest, StaysOnTargetWhenADotIsHidden) {

@@ -59,7 +59,7 @@ TEST_F(WatchTest, AWrongLockLivesForThreeTicksAtMost) {
   EXPECT_LE(wrong, 3);
   EXPECT_EQ(result.relock, Relock::better_elsewhere);
   EXPECT_EQ(result.reset_count, 2U);
-  EXPECT_FALSE(result.motion.known);
+  EXPECT_FALSE(result.filtered.motion.known);
   EXPECT_LE(result.false_lock_probability, room_.rig.limits.max_false_lock_probability);
 }
 

@@ -90,7 +90,7 @@ typedef struct place {
 } place;
 
 typedef struct layout {
-  place version, state, pose_valid, out_of_range, reason, cameras_used, dots_used, reset_count;
+  place version, state, pose_valid, out_of_range, reason, cameras_used, dots_used, pose_kind, reset_count;
   place capture, age, degraded, false_lock, residual;
   place dots_follow, covariance_follows, motion_follows, cameras_follow;
   place position[3], orientation[4], sigma[6];
@@ -111,6 +111,7 @@ static const layout classic_layout = {
     .reason = AT(0, 24, 8),
     .cameras_used = AT(0, 32, 16),
     .dots_used = AT(0, 48, 5),
+    .pose_kind = AT(0, 53, 2),
     .reset_count = AT(0, 56, 8),
     .capture = AT(1, 16, 48),
     .age = AT(2, 16, 16),
@@ -140,6 +141,7 @@ static const layout fd_layout = {
     .reason = FD(32, 8),
     .cameras_used = FD(40, 16),
     .dots_used = FD(56, 5),
+    .pose_kind = FD(510, 2),
     .covariance_follows = FD(61, 1),
     .motion_follows = FD(62, 1),
     .cameras_follow = FD(63, 1),
@@ -278,9 +280,6 @@ static bool content_possible(const dottrack_receiver* receiver) {
   if (get(data, l->dots_follow) > DOTTRACK_MAX_DOTS) return false;
   if (!pose_possible(data, l)) return false;
   if (flag(data, l->covariance_follows) && !covariance_possible(data, l)) return false;
-  for (unsigned i = 0; i < DOTTRACK_MAX_CAMERAS && (receiver->announced & BIT(CAMERAS)) != 0; ++i) {
-    if (get(data, camera_place(i)) > 6) return false;
-  }
   for (unsigned i = 0; i < dots_following(receiver); ++i) {
     if (get(data, dot_place(i, 1, 56, 2)) > DOTTRACK_LOCATED) return false;
   }
@@ -296,6 +295,7 @@ static void fill_status(const uint8_t* data, const layout* l, dottrack_pose* pos
   pose->out_of_range = flag(data, l->out_of_range);
   pose->cameras_used = get16(data, l->cameras_used);
   pose->dots_used = get8(data, l->dots_used);
+  pose->kind = get8(data, l->pose_kind);
   pose->degraded = get16(data, l->degraded);
   pose->reset_count = get8(data, l->reset_count);
 }
@@ -736,6 +736,11 @@ const char* dottrack_degraded_text(unsigned bit) {
       "single_view_dots", "tick_missed",        "bus_trouble",     "message_lost", "record_lost",
       "not_real_time",    "covariance_unknown", "few_cameras",     "camera_moved", "rig_disagrees"};
   return WORD_OF(words, bit);
+}
+
+const char* dottrack_kind_text(uint8_t kind) {
+  static const char* const words[] = {"measured", "filtered", "predicted", "coasting"};
+  return WORD_OF(words, kind);
 }
 
 const char* dottrack_health_text(uint8_t health) {

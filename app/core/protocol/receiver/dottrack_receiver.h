@@ -59,6 +59,14 @@ typedef enum dottrack_verdict {
 
 typedef enum dottrack_state { DOTTRACK_ACQUIRING = 0, DOTTRACK_TRACKING = 1 } dottrack_state;
 
+/* What the pose is of a group that has one. */
+typedef enum dottrack_kind {
+  DOTTRACK_MEASURED = 0,  /* from the pictures of one instant alone */
+  DOTTRACK_FILTERED = 1,  /* from the pictures before, too */
+  DOTTRACK_PREDICTED = 2, /* carried on to the moment it was sent */
+  DOTTRACK_COASTING = 3   /* not seen at that instant: by its motion alone; reason says why */
+} dottrack_kind;
+
 typedef enum dottrack_visibility {
   DOTTRACK_NOT_SEEN = 0,
   DOTTRACK_ONE_CAMERA = 1,
@@ -83,6 +91,7 @@ typedef struct dottrack_pose {
   bool out_of_range;     /* there is a pose, but it does not fit into the messages */
   uint16_t cameras_used; /* one bit a camera */
   uint8_t dots_used;
+  uint8_t kind; /* dottrack_kind */
   uint16_t degraded;   /* one bit a reason: dottrack_degraded_text() */
   uint8_t reset_count; /* a new value: the pose may have jumped */
   bool restarted;      /* the unit's clock began anew since the group before */
@@ -205,6 +214,7 @@ const char* dottrack_verdict_text(dottrack_verdict verdict);
 const char* dottrack_state_text(uint8_t state);
 const char* dottrack_reason_text(uint8_t reason);
 const char* dottrack_degraded_text(unsigned bit);
+const char* dottrack_kind_text(uint8_t kind);
 const char* dottrack_health_text(uint8_t health);
 const char* dottrack_result_text(uint8_t result);
 
