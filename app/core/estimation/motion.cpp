@@ -1,21 +1,8 @@
 #include "app/core/estimation/motion.h"
 
-#include <cmath>
+#include "app/core/estimation/rotation.h"
 
 namespace dottrack::estimation {
-namespace {
-
-// The axis times the angle, which is the shorter of the two that a quaternion stands for.
-Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation) {
-  const double sign = rotation.w() < 0.0 ? -1.0 : 1.0;
-  const Eigen::Vector3d part = sign * rotation.vec();
-  const double sine = part.norm();
-  const double half_angle = std::atan2(sine, sign * rotation.w());
-  return sine > 0.0 ? Eigen::Vector3d(2.0 * half_angle / sine * part) : Eigen::Vector3d::Zero();
-}
-
-}  // namespace
-
 core::Motion motion_between(const core::Pose& before, Time captured_before, const core::Pose& now,
                             Time captured_now) {
   core::Motion motion;
