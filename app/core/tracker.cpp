@@ -43,6 +43,8 @@ Time mean_capture_time(std::span<const CameraFrame> frames) {
 constexpr int kBetterSearches = 2;
 constexpr double kDoubtOfBetter = 1e-4;
 
+constexpr int kViewsThatShowAMistake = 4;  // eight coordinates; a pose has six
+
 // What tracking saw of the dots, as witnesses of its pose.
 acquisition::Witnesses witnesses_of(const tracking::FollowResult& followed) {
   acquisition::Witnesses witnesses;
@@ -89,6 +91,7 @@ struct Tracker::Memory {
   Reason acquire();
   Reason judge_candidate(Reason doubt);
   void follow();
+  bool is_out_of_reach(const tracking::FollowResult& followed) const;
   void watch(const tracking::FollowResult& followed);
   void look_for_moved_cameras(const tracking::FollowResult& followed);
   void report_cameras();
@@ -202,13 +205,22 @@ void Tracker::Memory::follow() {
   }
   const bool watches = rig.limits.watch_every_ticks > 0;
   const Reason reason = followed.reason;
-  if (reason == Reason::none) {
+  if (reason == Reason::none && is_out_of_reach(followed)) {
+    refuse(Reason::step_too_large);
+  } else if (reason == Reason::none) {
     accept(followed);
     look_for_moved_cameras(followed);
     if (watches) watch(followed);
   } else if (!watches || acquire() != Reason::none) {
     refuse(reason);
   }
+}
+
+// So few views have nothing left over that would show a mistake: where the vehicle cannot have come
+// by itself they are not believed.
+bool Tracker::Memory::is_out_of_reach(const tracking::FollowResult& followed) const {
+  return followed.views_used < kViewsThatShowAMistake &&
+         !motion.is_reachable(followed.pose, result.capture_time);
 }
 
 // Before anything else is followed: the follower remembers its last cycle only.

@@ -1,8 +1,10 @@
 #include "app/core/tracking/motion_estimator.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "app/core/estimation/rotation.h"
 #include "hal/base/static_vector.h"
 
 namespace dottrack::tracking {
@@ -75,6 +77,17 @@ bool MotionEstimator::take_in(std::span<const core::CameraFrame> frames, const c
   found_ = at;
   ++poses_;
   return true;
+}
+
+bool MotionEstimator::is_reachable(const core::Pose& pose, Time at) const {
+  if (!running() || at <= found_) return true;
+  const MotionState state = filter_.at(at);
+  estimation::Vector6d off;
+  off << pose.position_m - state.position_m,
+      estimation::rotation_vector(pose.orientation * state.orientation.conjugate());
+  const estimation::Matrix6d variance =
+      state.covariance.topLeftCorner<6, 6>() + systematic_ + pose.covariance;
+  return off.dot(variance.ldlt().solve(off)) <= estimation::largest_surprise(6);
 }
 
 bool MotionEstimator::may_coast(Time now) const {

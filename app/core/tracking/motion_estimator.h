@@ -31,6 +31,10 @@ class MotionEstimator {
                const estimation::Matrix6d& systematic,
                std::span<const estimation::CameraEvidence> evidence);
 
+  // The vehicle may have come to this pose since the last views, as far as both are known; true
+  // where the filter cannot say.
+  bool is_reachable(const core::Pose& pose, Time at) const;
+
   // The views of the last pose are not older than the rig's coasting time.
   bool may_coast(Time now) const;
 
@@ -41,8 +45,6 @@ class MotionEstimator {
   core::FilteredPose filtered(Time at) const;
 
  private:
-  bool time_passes(std::span<const core::CameraFrame> frames) const;
-
   const core::Rig* rig_;
   estimation::PoseFilter filter_;
   estimation::Matrix6d systematic_ = estimation::Matrix6d::Zero();

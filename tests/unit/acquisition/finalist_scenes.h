@@ -247,7 +247,7 @@ class Finder {
     for (const Witness& w : lock.witnesses) {
       dots.push_back(estimation::triangulated_dot(w.dot, w.position_m, w.covariance_m2));
     }
-    if (estimation::locate(scene_->target, as_span(dots), limit_m_, nullptr, lock.pose) !=
+    if (estimation::locate(scene_->target, as_span(dots), limit_m_, lock.pose) !=
         estimation::LocateStatus::ok) {
       return;
     }

@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "max_speed_m_s, max_acceleration_m_s2, max_turn_rate_deg_s, "
                 "max_turn_acceleration_deg_s2"},
         Mistake{"NoTable", "[vehicle]\n", "[[vehicle]]\n",
-                "rig.toml:31: vehicle is a list; expected a table [vehicle]"},
+                "rig.toml:31: vehicle is a list of tables; expected a table [vehicle]"},
         Mistake{"SpeedZero", "1.5", "0", "rig.toml:32: max_speed_m_s is 0" + kSpeedWords},
         Mistake{"SpeedNegative", "1.5", "-1", "rig.toml:32: max_speed_m_s is -1" + kSpeedWords},
         Mistake{"SpeedInMillimetres", "1.5", "1500",

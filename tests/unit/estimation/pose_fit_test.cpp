@@ -175,6 +175,14 @@ TEST_F(PoseFitTest, TwoDotsDetermineNoPoseHoweverManyCamerasSeeThem) {
   EXPECT_EQ(fit(views, truth), PoseFitStatus::degenerate);
 }
 
+TEST_F(PoseFitTest, DotsOnALineDoNotHoldTheRoll) {
+  for (std::size_t dot = 0; dot < 5; ++dot) {
+    room_.rig.target.dots[dot].position_m = Vector3d(0.2 * static_cast<double>(dot), 0.0, 0.0);
+  }
+  const geometry::RigidMotion truth = room_.somewhere();
+  EXPECT_EQ(fit(room_.see(truth, kSigma_px), truth), PoseFitStatus::degenerate);
+}
+
 TEST_F(PoseFitTest, TheOrderOfCamerasAndDotsDoesNotMatter) {
   for (int i = 0; i < 100; ++i) {
     const geometry::RigidMotion truth = room_.somewhere();
