@@ -1,7 +1,6 @@
 #include "app/core/estimation/pose_filter.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "app/core/estimation/innovation_gate.h"
 
@@ -16,10 +15,12 @@ constexpr int kMostSteps = 16;
 
 void let_pass(double seconds, MotionMixture& mixture) {
   if (seconds <= 0.0) return;
-  const int steps =
-      std::clamp(static_cast<int>(std::ceil(seconds / kLongestStep_s)), 1, kMostSteps);
   const double hold_s = std::clamp(seconds, kAccelerationHolds_s, kLongestHold_s);
-  for (int i = 0; i < steps; ++i) mixture.pass(seconds / steps, hold_s);
+  for (int i = 1; i < kMostSteps && seconds > kLongestStep_s; ++i) {
+    mixture.pass(kLongestStep_s, hold_s);
+    seconds -= kLongestStep_s;
+  }
+  mixture.pass(seconds, hold_s);
 }
 
 double spread(double limit) {
