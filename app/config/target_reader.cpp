@@ -23,7 +23,7 @@ class TargetsReader {
 
   void read(const toml::table& table) {
     TableReader reader(complaint_, table, title_,
-                       {"name", "dots", "upright", "max_step_m", "allow_ambiguous"});
+                       {"name", "dots", "upright", "max_step_m", "dot_sigma_m", "allow_ambiguous"});
     NamedTarget target;
     target.name = reader.text("name", "target");
     check_name(reader, target.name);
@@ -32,6 +32,7 @@ class TargetsReader {
     target.target.upright = reader.boolean("upright", true);
     target.allow_ambiguous = reader.boolean("allow_ambiguous", false);
     target.target.max_step_m = reader.number("max_step_m", 0.2, kStep);
+    target.target.dot_sigma_m = reader.number("dot_sigma_m", 0.0, kDotSigma);
     name_lines_.push_back(reader.line("name"));
     targets_.push_back(std::move(target));
   }

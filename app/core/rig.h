@@ -39,6 +39,9 @@ struct TargetDot {
 
 struct Target {
   StaticVector<TargetDot, kMaxDots> dots;
+  // How far the centre of a dot's light may be from its place above, each coordinate's standard
+  // deviation: how well the dots were surveyed, and how evenly they are lit.
+  double dot_sigma_m = 0.0;
   bool upright = true;      // the vehicle's z axis never points down
   double max_step_m = 0.2;  // a dot may not move further between ticks
 };

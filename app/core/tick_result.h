@@ -115,7 +115,8 @@ struct TickResult {
   Reason reason = Reason::no_frames;
   bool has_pose = false;
   Pose pose;  // from the images of this tick alone
-  // The part of its covariance that comes from the camera models: the same from tick to tick.
+  // The part of its covariance that comes from the camera models and the dots' places on the
+  // target: the same from tick to tick.
   Eigen::Matrix<double, 6, 6> systematic = Eigen::Matrix<double, 6, 6>::Zero();
   FilteredPose filtered;  // at the same instant; while coasting without a pose beside it
   double false_lock_probability = 1.0;  // that the lock is a wrong one, at most; with a pose only

@@ -13,31 +13,38 @@ constexpr double kFar = 0.01;        // eccentricities are to be found anew
 constexpr int kPoseCoordinates = 6;
 constexpr double kUnlikely = 4.0;  // standard deviations of chi squared that chance may explain
 
-// How the model errors of one camera move the pose, before the information is divided out.
-using Pulls = std::array<Vector6d, core::kMaxModelErrors>;
+// How errors that are the same in many rows move the pose, before the information is divided out.
+using ModelPulls = std::array<Vector6d, core::kMaxModelErrors>;
+using DotPulls = Eigen::Matrix<double, 6, 3>;
 
 struct Sums {
   Matrix6d information = Matrix6d::Zero();
-  Matrix6d within = Matrix6d::Zero();  // model errors, as if each row had its own
-  std::array<Pulls, kMaxCameras> pulls;
+  Matrix6d within = Matrix6d::Zero();  // of these errors, as if each row had its own
+  std::array<ModelPulls, kMaxCameras> by_model;
+  std::array<DotPulls, core::kMaxDots> by_dot;
 
   Sums() {
-    for (Pulls& camera : pulls) camera.fill(Vector6d::Zero());
+    for (ModelPulls& camera : by_model) camera.fill(Vector6d::Zero());
+    by_dot.fill(DotPulls::Zero());
   }
   void add(const ViewRow& row) {
     information.noalias() += row.jacobian.transpose() * row.jacobian;
+    const DotPulls by_place = row.jacobian.transpose() * row.dot_errors;
+    within.noalias() += by_place * by_place.transpose();
+    by_dot[row.dot] += by_place;
     for (std::size_t i = 0; i < row.model_errors.size(); ++i) {
       const Vector6d pull = row.jacobian.transpose() * row.model_errors[i];
       within.noalias() += pull * pull.transpose();
-      pulls[row.camera][i] += pull;
+      by_model[row.camera][i] += pull;
     }
   }
-  // Model errors, each the same in all rows of its camera.
+  // Each the same in all rows of its camera or dot.
   Matrix6d together() const {
     Matrix6d sum = Matrix6d::Zero();
-    for (const Pulls& camera : pulls) {
+    for (const ModelPulls& camera : by_model) {
       for (const Vector6d& pull : camera) sum.noalias() += pull * pull.transpose();
     }
+    for (const DotPulls& dot : by_dot) sum.noalias() += dot * dot.transpose();
     return sum;
   }
 };

@@ -28,8 +28,8 @@ struct CameraEvidence {
 
 struct PoseFit {
   core::Pose pose;  // its rms_residual_m is not set
-  // The part of its covariance that comes from the camera models (S of their files). It stays the
-  // same from tick to tick: no filter averages it out.
+  // The part of its covariance that comes from the camera models (S of their files) and from the
+  // dots' places on the target. It stays the same from tick to tick: no filter averages it out.
   Matrix6d systematic = Matrix6d::Zero();
   StaticVector<FittedView, kMaxCameras * core::kMaxDots> views;  // as given
   int coordinates = 0;                                           // of the views used: two each

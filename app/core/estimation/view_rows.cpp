@@ -73,7 +73,7 @@ void add_model_errors(const core::Camera& camera, const Vector3d& place_m, const
 }
 
 Matrix2d variance_of(const DotObservation& view, const ViewRow& row) {
-  Matrix2d variance = view.covariance_px2;
+  Matrix2d variance = view.covariance_px2 + row.dot_errors * row.dot_errors.transpose();
   for (const Vector2d& error : row.model_errors) variance += error * error.transpose();
   return variance;
 }
@@ -96,9 +96,11 @@ bool make_row(const core::Rig& rig, const DotObservation& view, const Vector2d& 
   row.residual = row.residual_px;
   row.model_errors.clear();
   add_model_errors(camera, placed.place_m, pixel, row);
+  row.dot_errors = rig.target.dot_sigma_m * by_point;
   const Whitener whitener(variance_of(view, row));
   whitener.apply(row.residual);
   whitener.apply(row.jacobian);
+  whitener.apply(row.dot_errors);
   for (Vector2d& error : row.model_errors) whitener.apply(error);
   return true;
 }

@@ -26,6 +26,9 @@ struct ViewRow {
   // What each of the camera's model errors would do to the row.
   StaticVector<Eigen::Vector2d, core::kMaxModelErrors> model_errors;
 
+  // What the dot being off its place by one standard deviation would do to the row, axis by axis.
+  Eigen::Matrix<double, 2, 3> dot_errors = Eigen::Matrix<double, 2, 3>::Zero();
+
   double squared(const Vector6d& step) const { return (residual - jacobian * step).squaredNorm(); }
 };
 

@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "rig.toml:8: unknown key \"z_distance\" in [[camera]]" + kCameraKeys},
         Mistake{"InTarget", "max_step_m", "max_step",
                 "rig.toml:25: unknown key \"max_step\" in [target]; "
-                "expected one of name, dots, upright, max_step_m, allow_ambiguous"},
+                "expected one of name, dots, upright, max_step_m, dot_sigma_m, allow_ambiguous"},
         Mistake{"InTracking", "lost_after_ticks", "lost_after",
                 "rig.toml:29: unknown key \"lost_after\" in [tracking]; "
                 "expected one of max_rms_residual_m, lost_after_ticks, "

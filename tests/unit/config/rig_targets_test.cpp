@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "every target"},
         Mistake{"Key", "name = \"trailer\"", "colour = 3",
                 ":27: unknown key \"colour\" in [[target]]; expected one of name, dots, upright, "
-                "max_step_m, allow_ambiguous"},
+                "max_step_m, dot_sigma_m, allow_ambiguous"},
         Mistake{"NoDots", "dots = \"trailer.csv\"\n", "",
                 ":26: [[target]] has no key \"dots\"; expected a text"},
         Mistake{"DotsMissing", "trailer.csv", "lorry.csv",

@@ -263,6 +263,31 @@ TEST_F(PoseFitTest, TheModelsOwnCovarianceEntersAndDoesNotAverageOut) {
   EXPECT_LT(systematic, 0.99 * total);
 }
 
+// Every target is put together a little otherwise than its file says, by as much as it says.
+TEST_F(PoseFitTest, WhereTheDotsMayBeEntersAndDoesNotAverageOut) {
+  constexpr double kOff_m = 0.0005;
+  room_.rig.target.dot_sigma_m = kOff_m;
+  std::normal_distribution<double> normal(0.0, kOff_m);
+  constexpr int kTargets = 4000;
+  double sum = 0.0;
+  double without = 0.0;
+  for (int i = 0; i < kTargets; ++i) {
+    RoomOfDots built = room_;
+    for (core::TargetDot& dot : built.rig.target.dots) {
+      dot.position_m += Vector3d(normal(room_.random), normal(room_.random), normal(room_.random));
+    }
+    const geometry::RigidMotion truth = room_.somewhere();
+    ASSERT_EQ(fit(built.see(truth, kSigma_px), room_.near(truth)), PoseFitStatus::ok);
+    sum += test::nees(fit_.pose, truth);
+    core::Pose forgetful = fit_.pose;
+    forgetful.covariance -= fit_.systematic;
+    without += test::nees(forgetful, truth);
+    room_.random.discard(7);
+  }
+  EXPECT_NEAR(sum / kTargets, 6.0, 4.0 * std::sqrt(12.0 / kTargets));
+  EXPECT_GT(without / kTargets, 12.0);
+}
+
 // A target whose dots are 1 mm off what its file says: the residuals say so, and the covariance.
 TEST_F(PoseFitTest, ResidualsBeyondChanceWidenTheCovariance) {
   const geometry::RigidMotion truth = room_.somewhere();
