@@ -64,9 +64,9 @@ class RigReader {
   }
 
   void read_root(const toml::table& root) {
-    TableReader reader(
-        complaint_, root, "the rig file",
-        {"rig", "camera", "target", "tracking", "can", "trigger", "lamp", "loop", "recording"});
+    TableReader reader(complaint_, root, "the rig file",
+                       {"rig", "camera", "target", "tracking", "can", "trigger", "lamp", "light",
+                        "loop", "recording"});
     if (const auto* table = find_table(root, "rig")) read_rig(*table);
     read_cameras(root);
     targets_ = read_targets(complaint_, root);

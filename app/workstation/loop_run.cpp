@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/config/broadcast.h"
+#include "app/config/light.h"
 #include "app/workstation/overlay.h"
 #include "rtos_shim/allocation_trap/allocation_trap.h"
 
@@ -31,10 +32,11 @@ LoopRun::LoopRun(const config::RigConfig& config, LoopFiles files, LoopHardware 
       files_(std::move(files)),
       hardware_(std::move(hardware)),
       tracker_(config_.rig),
+      light_(config_.rig, config::light_settings(config_)),
       timer_(*files_.clock, Time{}, period_of(config_)),
       ring_(std::make_unique<telemetry::RecordRing>()),
       cycle_({hardware_.grabber, hardware_.iris, hardware_.can, tracker_, *files_.clock, stopwatch_,
-              *ring_},
+              *ring_, &light_},
              cycle::settings_for(config_.rig, period_of(config_),
                                  config::broadcast_settings(config_))),
       recorder_(*ring_),

@@ -6,6 +6,7 @@
 #include "app/core/estimation/dot_ellipse.h"
 #include "app/core/estimation/dot_position.h"
 #include "app/core/image/band.h"
+#include "app/core/image/bloom.h"
 #include "app/core/image/dot_centre.h"
 
 namespace dottrack::tracking {
@@ -30,9 +31,22 @@ bool same_region(const image::Region& a, const image::Region& b) {
   return (a.centroid_px - b.centroid_px).squaredNorm() < reach * reach;
 }
 
-core::DotView view_of(const image::Region& region, double residual_px, bool used) {
+// What a bloomed dot's centre is trusted to, of what another's is.
+constexpr double kBloomedDoubt = 8.0;
+
+bool is_bloomed(const ImageView& image, const image::Region& region, const ExpectedDot& expected) {
+  const geometry::ImageEllipse circle{expected.radius_px, expected.radius_px, 0.0};
+  const geometry::ImageEllipse& shape = expected.has_ellipse ? expected.ellipse : circle;
+  return image::bloom_evidence(
+             image, region,
+             image::extent_of(shape.semi_major_px, shape.semi_minor_px, shape.angle_rad))
+      .bloomed();
+}
+
+core::DotView view_of(const image::Region& region, double residual_px, bool used, bool bloomed) {
   return {.seen = true,
           .used = used,
+          .bloomed = bloomed,
           .pixel = region.centroid_px.cast<float>(),
           .semi_major_px = static_cast<float>(region.semi_major_px),
           .semi_minor_px = static_cast<float>(region.semi_minor_px),
@@ -53,8 +67,9 @@ void Follower::predict(const core::Pose& previous) {
 }
 
 // The region nearest to the dot's place that may be the dot; false when there is none.
-bool Follower::choose_region(std::size_t camera, const ExpectedDot& expected,
-                             image::Regions& considered, image::Region& chosen) {
+bool Follower::choose_region(std::size_t camera, const ImageView& image,
+                             const ExpectedDot& expected, image::Regions& considered,
+                             Found& found) {
   double closest_px = kGateRadii * expected.radius_px;
   bool any = false;
   for (const image::Region& region : window_regions_) {
@@ -64,12 +79,15 @@ bool Follower::choose_region(std::size_t camera, const ExpectedDot& expected,
     if (expected.has_ellipse &&
         !estimation::may_be(expected.ellipse, estimation::ellipse_of(region))) {
       ++result_.rejected_ellipse[camera];
+      if (is_bloomed(image, region, expected)) ++result_.bloomed[camera];
       continue;
     }
     closest_px = distance_px;
     any = true;
-    chosen = region;
+    found.region = region;
   }
+  found.bloomed = any && is_bloomed(image, found.region, expected);
+  if (found.bloomed) ++result_.bloomed[camera];
   return any;
 }
 
@@ -81,11 +99,12 @@ void Follower::find_dot(std::size_t camera, std::size_t dot, const ImageView& im
   identifier_->identify(image, window_around(expected), image::band_of(model), expected.gate,
                         window_regions_);
   Found& found = found_[camera][dot];
-  if (!choose_region(camera, expected, considered, found.region)) return;
+  if (!choose_region(camera, image, expected, considered, found)) return;
   found.region.centroid_px = image::dot_centre(image, found.region);
   const double diameter_m = rig_->target.dots[dot].diameter_m;
   found.any = estimation::make_sighting(model, optics_[camera], {diameter_m, diameter_m},
                                         found.region, found.sighting);
+  if (found.bloomed) found.sighting.line.sigma_rad *= kBloomedDoubt;
 }
 
 // No two dots may rest on one region: neither of them is seen by this camera then.
@@ -241,7 +260,8 @@ void Follower::record_view(std::size_t camera, std::size_t dot) {
     return;
   }
   const bool used = state.cameras.contains(camera);
-  state.views[camera] = view_of(region, (pixel - region.centroid_px).norm(), used);
+  state.views[camera] =
+      view_of(region, (pixel - region.centroid_px).norm(), used, found_[camera][dot].bloomed);
   if (used) result_.cameras_used.insert(camera);
 }
 

@@ -24,6 +24,8 @@ struct FollowResult {
   std::uint8_t dots_used = 0;
   // Regions in a dot's place, by camera, that do not have the shape of that dot.
   std::array<std::uint32_t, kMaxCameras> rejected_ellipse{};
+  // Regions in a dot's place, by camera, that blooming has grown.
+  std::array<std::uint32_t, kMaxCameras> bloomed{};
 };
 
 // Follows the target from frame to frame. The caller keeps the pose; nothing is remembered here.
@@ -57,6 +59,7 @@ class Follower {
  private:
   struct Found {  // the region chosen for one dot in one camera
     bool any = false;
+    bool bloomed = false;
     image::Region region;
     estimation::Sighting sighting;
   };
@@ -71,8 +74,8 @@ class Follower {
   void update(std::size_t camera, const ImageView& image, image::Regions& considered);
   void find_dot(std::size_t camera, std::size_t dot, const ImageView& image,
                 image::Regions& considered);
-  bool choose_region(std::size_t camera, const ExpectedDot& expected, image::Regions& considered,
-                     image::Region& chosen);
+  bool choose_region(std::size_t camera, const ImageView& image, const ExpectedDot& expected,
+                     image::Regions& considered, Found& found);
   bool counts(std::size_t camera, std::size_t dot) const {
     return found_[camera][dot].any && !distrusted_.contains(camera);
   }
