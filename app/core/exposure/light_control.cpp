@@ -22,6 +22,9 @@ constexpr int kRefused_ticks = 300;
 // to the shortest one.
 constexpr double kMuchGain = 1.5;
 constexpr double kShort = 1.5;
+// Before it opens, the dots are not far above where they should be: what it lets in comes on top.
+constexpr double kHeadroom = 1.08;
+constexpr double kToleranceBeforeIris = 1.06;
 
 int rounded(double dn) {
   return static_cast<int>(dn + 0.5);
@@ -64,6 +67,7 @@ std::optional<Brightness> LightControl::brightness_of(const Camera& camera) cons
   seen.saturated =
       reading.brightest.peak_dn >= kNearFullScale_dn || reading.saturated_share > kSaturatedDots;
   seen.image_dn = reading.image.mean_dn;
+  if (needs_iris(camera, settings_)) seen.tolerance = kToleranceBeforeIris;
   if (seen.saturated && reading.image.saturated_share < kSaturatedImage) {
     seen.level_dn = std::max(seen.level_dn, camera.dots_over_image * seen.image_dn);
   }
@@ -141,13 +145,20 @@ std::optional<ExposureSetting> LightControl::expose(std::size_t index,
   return camera.exposure.step(seen, longest_exposure(camera));
 }
 
+bool LightControl::needs_iris(const Camera& camera, const LightSettings& settings) {
+  return camera.exposure.setting().gain > kMuchGain * settings.gain_min;
+}
+
 IrisWish LightControl::wish_of(const Camera& camera, const LightSettings& settings) {
   const ExposureSetting& now = camera.exposure.setting();
   if (camera.exposure.waiting()) return IrisWish::none;
   if (camera.exposure.at_most()) return IrisWish::open;
   if (camera.exposure.at_least()) return IrisWish::close;
   if (camera.reading.dots == 0) return IrisWish::none;
-  if (now.gain > kMuchGain * settings.gain_min) return IrisWish::open;
+  if (needs_iris(camera, settings)) {
+    return camera.reading.brightest.peak_dn < kHeadroom * settings.target_dn ? IrisWish::open
+                                                                             : IrisWish::none;
+  }
   const bool is_short = to_seconds(now.exposure) < kShort * to_seconds(settings.exposure_min);
   return is_short ? IrisWish::close : IrisWish::none;
 }

@@ -65,6 +65,7 @@ class LightControl {
   std::optional<ExposureSetting> spread(std::size_t index, const std::optional<Brightness>& seen);
   std::optional<ExposureSetting> expose(std::size_t index, const std::optional<Brightness>& seen);
   Duration longest_exposure(const Camera& camera) const;
+  static bool needs_iris(const Camera& camera, const LightSettings& settings);
   static IrisWish wish_of(const Camera& camera, const LightSettings& settings);
   static LightState state_of(const Camera& camera, const LightSettings& settings);
   void remember(Camera& camera) const;
