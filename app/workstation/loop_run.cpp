@@ -84,8 +84,9 @@ Result<void> LoopRun::write_pictures(const fs::path& folder) const {
   if (auto made = make_folder(folder); !made) return made;
   for (std::size_t i = 0; i < config_.cameras.size(); ++i) {
     const std::string& name = config_.cameras[i].name;
-    const Canvas canvas = draw_overlay({hardware_.image(i), name, config_.rig, i,
-                                        tally_.last_record().result, tracker_.regions(i)});
+    const Canvas canvas =
+        draw_overlay({hardware_.image(i), name, config_.rig, i, tally_.last_record().result,
+                      tracker_.regions(i), &tally_.last_record().light[i]});
     const Result<std::string> png = canvas.png();
     if (!png) return tl::unexpected<Error>(png.error());
     if (auto done = telemetry::write_file(folder / (name + ".png"), *png); !done) return done;

@@ -77,8 +77,8 @@ ExposureSetting ExposureLoop::split(double product_s, Duration longest) const {
       std::clamp(wanted_s, to_seconds(settings_->exposure_min), to_seconds(most));
   // Whole microseconds: what cameras are told.
   const Duration exposure = std::chrono::microseconds(std::llround(1e6 * exposure_s));
-  return {exposure,
-          std::clamp(product_s / to_seconds(exposure), settings_->gain_min, settings_->gain_max)};
+  const double gain = std::round(1e3 * product_s / to_seconds(exposure)) * 1e-3;
+  return {exposure, std::clamp(gain, settings_->gain_min, settings_->gain_max)};
 }
 
 std::optional<ExposureSetting> ExposureLoop::change(const ExposureSetting& next,
