@@ -12,8 +12,8 @@
 
 #include "app/config/camera_file.h"
 #include "app/config/complaint.h"
-#include "app/config/rig_rules.h"
 #include "app/config/model_errors.h"
+#include "app/config/rig_rules.h"
 #include "app/config/table_reader.h"
 #include "app/config/target_admission.h"
 #include "app/config/target_file.h"
@@ -70,7 +70,7 @@ class RigReader {
   void read_root(const toml::table& root) {
     TableReader reader(complaint_, root, "the rig file",
                        {"rig", "camera", "target", "vehicle", "tracking", "can", "trigger", "lamp",
-                        "loop", "recording"});
+                        "light", "loop", "recording"});
     if (const auto* table = find_table(root, "rig")) read_rig(*table);
     read_cameras(root);
     targets_ = read_targets(complaint_, root);

@@ -72,6 +72,18 @@ struct CanConfig {
   bool operator==(const CanConfig&) const = default;
 };
 
+// Of light control: [light].
+struct LightConfig {
+  bool control = false;       // off: exposures, gains and lenses are left alone
+  double target_part = 0.75;  // of full scale, for the brightest dot of a camera
+  std::array<double, 2> exposure_ms{0.05, 10.0};
+  std::array<double, 2> gain{1.0, 8.0};
+  int delay_ticks = 4;       // until a setting shows in a frame, at most
+  double max_blur_px = 0.5;  // that a dot may move while it is exposed
+
+  bool operator==(const LightConfig&) const = default;
+};
+
 struct LoopConfig {
   int priority = 80;       // SCHED_FIFO, 1 to 99
   std::optional<int> cpu;  // that the loop has for itself
@@ -94,6 +106,7 @@ struct UnitConfig {
   CanConfig can;
   std::optional<TriggerConfig> trigger;  // absent: the cameras run freely
   std::optional<LineConfig> lamp;
+  LightConfig light;
   LoopConfig loop;
   std::optional<RecordingConfig> recording;
 

@@ -86,6 +86,30 @@ void read_lamp(Complaint& complaint, const toml::table& table, UnitConfig& unit)
   unit.lamp = read_line(reader);
 }
 
+constexpr NumberRule kTargetPart{0.2, 0.95, "a number above 0.2 and up to 0.95"};
+constexpr NumberRule kExposures{0.0, 1000.0,
+                                "two numbers of milliseconds, 0 < shortest < longest <= 1000"};
+constexpr NumberRule kGains{0.0, 1000.0, "two numbers, 0 < least < most <= 1000"};
+constexpr IntegerRule kDelay{1, 30, "a whole number from 1 to 30"};
+constexpr NumberRule kBlur{0.0, 100.0, "a number of pixels above 0 and up to 100"};
+
+void read_light(Complaint& complaint, const toml::table& table, LightConfig& light) {
+  TableReader reader(
+      complaint, table, "[light]",
+      {"control", "target_part", "exposure_ms", "gain", "delay_ticks", "max_blur_px"});
+  const auto range = [&](std::string_view key, std::array<double, 2>& limits,
+                         const NumberRule& rule) {
+    std::tie(limits[0], limits[1]) =
+        reader.number_range(key, rule, std::pair(limits[0], limits[1]));
+  };
+  light.control = reader.boolean("control", light.control);
+  light.target_part = reader.number("target_part", light.target_part, kTargetPart);
+  range("exposure_ms", light.exposure_ms, kExposures);
+  range("gain", light.gain, kGains);
+  light.delay_ticks = reader.integer("delay_ticks", light.delay_ticks, kDelay);
+  light.max_blur_px = reader.number("max_blur_px", light.max_blur_px, kBlur);
+}
+
 void read_loop(Complaint& complaint, const toml::table& table, LoopConfig& loop) {
   TableReader reader(complaint, table, "[loop]", {"priority", "cpu", "watchdog", "watchdog_s"});
   loop.priority = reader.integer("priority", loop.priority, kPriority);
@@ -133,6 +157,7 @@ void read_unit(Complaint& complaint, const toml::table& root, UnitConfig& unit) 
   if (const auto* can = table("can")) read_can(complaint, *can, unit.can);
   if (const auto* trigger = table("trigger")) read_trigger(complaint, *trigger, unit);
   if (const auto* lamp = table("lamp")) read_lamp(complaint, *lamp, unit);
+  if (const auto* light = table("light")) read_light(complaint, *light, unit.light);
   if (const auto* loop = table("loop")) read_loop(complaint, *loop, unit.loop);
   if (const auto* recording = table("recording")) read_recording(complaint, *recording, unit);
 }

@@ -42,6 +42,7 @@ struct FilteredPose {
 struct DotView {
   bool seen = false;  // in its place; whether it is used or not
   bool used = false;
+  bool bloomed = false;  // charge has spilt along its columns: its centre is not where it seems
   Eigen::Vector2f pixel = Eigen::Vector2f::Zero();
   float semi_major_px = 0.0F;
   float semi_minor_px = 0.0F;
@@ -72,6 +73,8 @@ struct CameraTick {
   std::uint32_t sightings = 0;       // of the regions: taken into matching
   // While tracking: regions in a dot's place that do not have the shape of that dot.
   std::uint32_t rejected_ellipse = 0;
+  // Of the regions in a dot's place, those that blooming has grown, taken for the dot or not.
+  std::uint32_t bloomed = 0;
   bool overflow = false;  // a capacity was reached: some regions were left out
   bool stale = false;     // delivered the picture of the tick before again: left out
   bool moved = false;     // stands no longer as its model says: left out

@@ -202,6 +202,7 @@ void Tracker::Memory::follow() {
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     result.cameras[i].regions = static_cast<std::uint32_t>(considered[i].size());
     result.cameras[i].rejected_ellipse = followed.rejected_ellipse[i];
+    result.cameras[i].bloomed = followed.bloomed[i];
   }
   const bool watches = rig.limits.watch_every_ticks > 0;
   const Reason reason = followed.reason;

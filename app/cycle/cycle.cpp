@@ -67,6 +67,7 @@ void Cycle::track(const hal::FrameSet& frames) {
   result.tick = ticks_++;
   tracker_resets_ = result.reset_count;
   result.reset_count = resets();
+  read_light();
   keep(frames);
   parts_.grabber.release();
 
@@ -124,12 +125,46 @@ bool Cycle::carry_out(const protocol::Command& command) {
   return false;
 }
 
-// The lenses' own control is in charge of the irises; the loop notes which of them do not answer.
+// While the images are there.
+void Cycle::read_light() {
+  if (parts_.light == nullptr) return;
+  for (std::size_t i = 0; i < settings_.cameras; ++i) {
+    parts_.light->read(i, frames_[i], record_.result);
+  }
+  parts_.light->end_readings(record_.result);
+}
+
+// Without light control the lenses' own control is in charge of the irises; the loop notes which
+// of them do not answer.
 void Cycle::expose() {
   record_.unhealthy_irises = CameraSet{};
   for (std::size_t i = 0; i < settings_.cameras; ++i) {
-    if (!parts_.iris.state(i).healthy) record_.unhealthy_irises.insert(i);
+    const hal::IrisState iris = parts_.iris.state(i);
+    if (parts_.light != nullptr) control_light(i, iris);
+    const bool fault = record_.light[i].state == exposure::LightState::iris_fault;
+    if (!iris.healthy || fault) record_.unhealthy_irises.insert(i);
   }
+}
+
+void Cycle::control_light(std::size_t camera, const hal::IrisState& iris) {
+  exposure::LightControl& light = *parts_.light;
+  const exposure::CameraOrders orders =
+      light.decide(camera, {iris.opening, iris.moving, iris.automatic, iris.healthy});
+  if (orders.exposure &&
+      !parts_.grabber.set_exposure(camera, {orders.exposure->exposure, orders.exposure->gain})) {
+    light.exposure_refused(camera);
+  }
+  switch (orders.iris.act) {
+    case exposure::IrisAct::none:
+      break;
+    case exposure::IrisAct::move:
+      if (!parts_.iris.move_to(camera, orders.iris.opening)) light.iris_refused(camera);
+      break;
+    case exposure::IrisAct::release:
+      parts_.iris.release_to_auto(camera);
+      break;
+  }
+  record_.light[camera] = light.light(camera);
 }
 
 void Cycle::record() {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "app/core/exposure/light_control.h"
 #include "app/core/protocol/broadcast_settings.h"
 #include "app/core/tracker.h"
 #include "app/cycle/broadcaster.h"
@@ -45,6 +46,7 @@ struct CycleParts {
   const rtos::Clock& clock;
   const rtos::Clock& stopwatch;
   telemetry::RecordRing& records;
+  exposure::LightControl* light = nullptr;  // none: cameras and lenses are left as they are
   // Only a unit has these.
   telemetry::FrameRing* frames = nullptr;  // takes copies of the images
   hal::OutputLine* lamp = nullptr;         // lit: tracking; blinking: looking for the target
@@ -87,7 +89,9 @@ class Cycle {
   void broadcast();
   void obey(Time deadline);
   bool carry_out(const protocol::Command& command);
+  void read_light();
   void expose();
+  void control_light(std::size_t camera, const hal::IrisState& iris);
   void record();
 
   CycleParts parts_;

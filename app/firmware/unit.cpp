@@ -4,6 +4,7 @@
 #include <thread>
 #include <utility>
 
+#include "app/config/light.h"
 #include "rtos_shim/allocation_trap/allocation_trap.h"
 #include "rtos_shim/posix_rt/posix_periodic_timer.h"
 
@@ -64,7 +65,8 @@ Result<void> start_thread(rtos::PosixThread& thread, const rtos::ThreadSettings&
 
 Unit::Unit(const config::RigConfig& config)
     : loaded_(std::make_unique<LoadedTracker>(config)),
-      records_(std::make_unique<telemetry::RecordRing>()) {
+      records_(std::make_unique<telemetry::RecordRing>()),
+      light_(loaded_->config.rig, config::light_settings(config)) {
   if (config.unit.recording && config.unit.recording->frames) {
     frames_ = std::make_unique<telemetry::FrameRing>(frame_sizes(config), kRecordedTicks);
   }
@@ -112,6 +114,7 @@ void Unit::make_cycle(rtos::Watchdog* watchdog, const Continuity& before) {
                                    .clock = clock_,
                                    .stopwatch = clock_,
                                    .records = *records_,
+                                   .light = &light_,
                                    .frames = frames_.get(),
                                    .lamp = hardware.lamp.get(),
                                    .watchdog = watchdog,
@@ -180,6 +183,7 @@ void Unit::run_loop() {
   while (!ending_) {
     const rtos::Wake wake = timer.wait();
     if (LoadedTracker* next = next_.load()) {
+      light_.look_for(next->config.rig);
       cycle_->use(next->tracker, next->config.rig.target.dots.size(), next->broadcast.identity);
       next_ = nullptr;
     }

@@ -83,6 +83,7 @@ class Unit {
   std::unique_ptr<telemetry::RecordRing> records_;
   std::unique_ptr<telemetry::FrameRing> frames_;
   cycle::Requests requests_;
+  exposure::LightControl light_;
   std::optional<cycle::Cycle> cycle_;
 
   std::atomic<bool> ending_{false};

@@ -98,6 +98,15 @@ void write_dot(const TickResult& result, std::size_t i, std::size_t cameras, Lin
   }
 }
 
+// Without light control nobody knows what the cameras are set to.
+void write_light(const CycleRecord& record, std::size_t camera, Line& line) {
+  const exposure::CameraLight& light = record.light[camera];
+  line << record.result.cameras[camera].bloomed << light.peak_dn << light.saturated_px
+       << exposure::to_string(light.state);
+  if (light.state == exposure::LightState::off) return line.skip(3);
+  line << 1e3 * to_seconds(light.setting.exposure) << light.setting.gain << light.opening;
+}
+
 using CountColumn = std::pair<std::string_view, std::uint64_t>;
 
 std::array<CountColumn, 14> count_columns(const AcquisitionCounts& counts) {
@@ -193,9 +202,10 @@ std::string header(const std::vector<std::string>& cameras, std::size_t dots) {
   for (std::size_t dot = 0; dot < dots; ++dot) header_of_dot(dot, cameras, line);
   for (const std::string& camera : cameras) {
     for (const std::string_view name :
-         {"delivered", "used", "regions", "components", "rejected_size", "rejected_shape",
-          "rejected_sight", "sightings", "overflow", "stale", "moved", "shift_x_px",
-          "shift_y_px"}) {
+         {"delivered",      "used",           "regions",     "components", "rejected_size",
+          "rejected_shape", "rejected_sight", "sightings",   "overflow",   "stale",
+          "moved",          "shift_x_px",     "shift_y_px",  "bloomed",    "peak_dn",
+          "saturated_px",   "light",          "exposure_ms", "gain",       "iris"}) {
       line << fmt::format("{}_{}", camera, name);
     }
   }
@@ -234,6 +244,7 @@ void CsvWriter::do_write(const CycleRecord& record) {
          << camera.rejected_size << camera.rejected_shape << camera.rejected_sight
          << camera.sightings << camera.overflow << camera.stale << camera.moved
          << camera.shift_px.x() << camera.shift_px.y();
+    write_light(record, i, line);
   }
   for (const auto& [name, value] : count_columns(result.acquisition)) line << value;
   line << result.acquisition.false_lock_probability;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "app/core/exposure/camera_light.h"
 #include "app/core/protocol/command.h"
 #include "app/core/tick_result.h"
 #include "hal/base/camera_set.h"
@@ -44,6 +45,7 @@ struct CycleRecord {
   StageTimes stages;
   CycleCounters counters;
   CameraSet unhealthy_irises;
+  std::array<exposure::CameraLight, kMaxCameras> light{};
   hal::CanState can_state = hal::CanState::active;
 };
 

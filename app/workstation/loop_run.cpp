@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/config/broadcast.h"
+#include "app/config/light.h"
 #include "app/workstation/overlay.h"
 #include "rtos_shim/allocation_trap/allocation_trap.h"
 
@@ -31,10 +32,11 @@ LoopRun::LoopRun(const config::RigConfig& config, LoopFiles files, LoopHardware 
       files_(std::move(files)),
       hardware_(std::move(hardware)),
       tracker_(config_.rig),
+      light_(config_.rig, config::light_settings(config_)),
       timer_(*files_.clock, Time{}, period_of(config_)),
       ring_(std::make_unique<telemetry::RecordRing>()),
       cycle_({hardware_.grabber, hardware_.iris, hardware_.can, tracker_, *files_.clock, stopwatch_,
-              *ring_},
+              *ring_, &light_},
              cycle::settings_for(config_.rig, period_of(config_),
                                  config::broadcast_settings(config_))),
       recorder_(*ring_),
@@ -86,8 +88,9 @@ Result<void> LoopRun::write_pictures(const fs::path& folder) const {
   if (auto made = make_folder(folder); !made) return made;
   for (std::size_t i = 0; i < config_.cameras.size(); ++i) {
     const std::string& name = config_.cameras[i].name;
-    const Canvas canvas = draw_overlay({hardware_.image(i), name, config_.rig, i,
-                                        tally_.last_record().result, tracker_.regions(i)});
+    const Canvas canvas =
+        draw_overlay({hardware_.image(i), name, config_.rig, i, tally_.last_record().result,
+                      tracker_.regions(i), &tally_.last_record().light[i]});
     const Result<std::string> png = canvas.png();
     if (!png) return tl::unexpected<Error>(png.error());
     if (auto done = telemetry::write_file(folder / (name + ".png"), *png); !done) return done;

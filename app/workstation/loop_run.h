@@ -10,6 +10,7 @@
 #include <string>
 
 #include "app/config/rig_file.h"
+#include "app/core/exposure/light_control.h"
 #include "app/core/tracker.h"
 #include "app/cycle/cycle.h"
 #include "app/telemetry/pose_files.h"
@@ -64,6 +65,7 @@ class LoopRun {
   LoopFiles files_;
   LoopHardware hardware_;
   core::Tracker tracker_;
+  exposure::LightControl light_;
   rtos::VirtualPeriodicTimer timer_;
   rtos::MonotonicClock stopwatch_;
   std::unique_ptr<telemetry::RecordRing> ring_;

@@ -13,6 +13,7 @@
 #include "app/workstation/dbc_command.h"
 #include "app/workstation/exit_status.h"
 #include "app/workstation/experiments_command.h"
+#include "app/workstation/light_command.h"
 #include "app/workstation/monitor_command.h"
 #include "app/workstation/replay_command.h"
 #include "app/workstation/sim_command.h"
@@ -60,6 +61,7 @@ void add_commands(CLI::App& app, int& exit_status) {
   dottrack::workstation::add_sim_command(app, exit_status);
   dottrack::workstation::add_acquisitions_command(app, exit_status);
   dottrack::workstation::add_experiments_command(app, exit_status);
+  dottrack::workstation::add_light_command(app, exit_status);
   dottrack::workstation::add_calibrate_command(app, exit_status);
   dottrack::workstation::add_camera_command(app, exit_status);
   dottrack::workstation::add_survey_command(app, exit_status);

@@ -153,8 +153,18 @@ class Overlay {
                     result.dots_used, result.cameras_used.size())};
   }
 
+  // What the camera was set to for a picture to come, and how bright its dots are in this one.
+  static std::string light_line(const exposure::CameraLight& light) {
+    return fmt::format("light {}  {:.3f} ms  gain {:.2f}  iris {:.2f}  peak {} dn",
+                       exposure::to_string(light.state), 1e3 * to_seconds(light.setting.exposure),
+                       light.setting.gain, light.opening, light.peak_dn);
+  }
+
   void draw_legend() {
-    const std::vector<std::string> lines = legend();
+    std::vector<std::string> lines = legend();
+    const bool controlled =
+        input_.light != nullptr && input_.light->state != exposure::LightState::off;
+    if (controlled) lines.push_back(light_line(*input_.light));
     std::size_t longest = 0;
     for (const std::string& line : lines) longest = std::max(longest, line.size());
     const int line_height = (kGlyphRows + 3) * text_px_;

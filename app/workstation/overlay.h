@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "app/core/exposure/camera_light.h"
 #include "app/core/image/region.h"
 #include "app/core/rig.h"
 #include "app/core/tick_result.h"
@@ -28,6 +29,7 @@ struct OverlayInput {
   std::size_t camera = 0;
   const core::TickResult& result;
   std::span<const image::Region> regions;
+  const exposure::CameraLight* light = nullptr;  // none: the legend says nothing of it
 };
 
 // Lines in space are drawn through the camera's model, so they bend where its lens bends them.

@@ -42,6 +42,7 @@ struct SimCommand {
   bool explain = false;
   unsigned threads = 0;
   bool pictures = true;
+  std::string light_control;  // on or off; empty: as the scenario says
 };
 
 void print_text(const std::string& text) {
@@ -56,7 +57,11 @@ int complain(const std::string& message, int status) {
 Result<host_sim::Scene> load(const SimCommand& command) {
   const auto file = host_sim::find_scenario(command.scenario);
   if (!file) return tl::unexpected<Error>(file.error());
-  return host_sim::load_scenario(*file, {command.seed, command.ticks});
+  auto scene = host_sim::load_scenario(*file, {command.seed, command.ticks});
+  if (scene && !command.light_control.empty()) {
+    scene->light_control = command.light_control == "on";
+  }
+  return scene;
 }
 
 void print_row(const std::string& what, const std::string& value) {
@@ -248,6 +253,10 @@ void add_sim_command(CLI::App& app, int& exit_status) {
   add_trial_options(*sub, *command, *record);
   sub->add_option("--threads", command->threads, "For rendering; 0: as many as the machine has")
       ->check(CLI::Range(0, 256));
+  sub->add_option("--light-control", command->light_control,
+                  "on: the unit sets exposures, gains and irises; off: it leaves them alone; "
+                  "without it as the scenario says")
+      ->check(CLI::IsMember({"on", "off"}));
   sub->add_flag("--explain", command->explain, "Say of every tick without a pose why it has none");
   sub->add_flag("!--no-pictures", command->pictures, "No overlay pictures and no plots");
   sub->callback([command, &exit_status] { exit_status = run(*command); });

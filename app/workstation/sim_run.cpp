@@ -99,6 +99,7 @@ class Simulation {
                options.pictures ? [this](std::size_t i) { return grabber_.picture(i); }
                                 : std::function<ImageView(std::size_t)>{}}) {
     loop_.add(truth_);
+    if (options.more != nullptr) loop_.add(*options.more);
     if (options.explain) loop_.add(explainer_.emplace(config, options.explain));
   }
 

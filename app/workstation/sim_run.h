@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/telemetry/recorder.h"
 #include "app/workstation/run_summary.h"
 #include "app/workstation/truth_record.h"
 #include "hal/base/result.h"
@@ -24,6 +25,7 @@ struct SimOptions {
   std::span<const host_sim::SimCamera> models;
   // Takes why ticks have no pose, for a person; empty function: nobody asks.
   std::function<void(const std::string&)> explain;
+  telemetry::RecordWriter* more = nullptr;  // takes every tick's record, too
   // Called after every tick with the ticks done; false ends the run there.
   std::function<bool(std::uint64_t)> go_on;
 };

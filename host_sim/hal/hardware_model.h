@@ -35,6 +35,18 @@ struct IrisModel {
   double speed_per_s = 0.5;  // of the opening
   double backlash = 0.02;    // lost whenever the direction changes
   double drift_per_s = 0.0;  // the auto-iris wanders off: relative change of the light
+  double wear_per_s = 0.0;   // so does the linkage, whoever is in charge, and nobody is told
+};
+
+enum class IrisFaultKind : std::uint8_t {
+  stuck,  // the blades stay where they are; the motor knows nothing of it
+  dead,   // neither moves nor answers
+};
+
+struct IrisFault {
+  std::size_t camera = 0;
+  IrisFaultKind kind = IrisFaultKind::stuck;
+  double from_s = 0.0;
 };
 
 struct CanOutage {

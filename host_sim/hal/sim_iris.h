@@ -2,6 +2,8 @@
 // The irises of the simulated cameras: they take their time, have play and wander off.
 
 #include <array>
+#include <utility>
+#include <vector>
 
 #include "hal/base/camera_set.h"
 #include "hal/iris.h"
@@ -13,14 +15,16 @@ namespace dottrack::host_sim {
 
 // Where an iris stands is a pure function of the requests so far and the time, however often it is
 // asked. An automatic iris holds its opening and drifts; one that was sent somewhere goes there at
-// the model's speed and comes to rest up to half the backlash away, on the side it came from.
+// the model's speed and comes to rest up to half the backlash away, on the side it came from. Wear
+// and stuck blades show in the light alone: the iris still says where it should be.
 class SimIris final : public hal::Iris {
  public:
   // At most kMaxCameras cameras; all start as the model says, in automatic mode. `clock` outlives
   // this.
-  SimIris(std::size_t cameras, const IrisModel& model, const rtos::Clock& clock);
+  SimIris(std::size_t cameras, const IrisModel& model, const rtos::Clock& clock,
+          std::vector<IrisFault> faults = {});
   SimIris(const Scene& scene, const rtos::Clock& clock)
-      : SimIris(scene.cameras.size(), scene.iris, clock) {}
+      : SimIris(scene.cameras.size(), scene.iris, clock, scene.iris_faults) {}
 
   // Share of the light of a fully open iris, at an instant not before the last request.
   double opening(std::size_t camera, Time at) const;
@@ -39,12 +43,17 @@ class SimIris final : public hal::Iris {
   hal::IrisState do_state(std::size_t camera) const override;
 
   double motor_at(const Blades& blades, Time at) const;
+  double commanded(const Blades& blades, Time at) const;
   double within_range(double opening) const;
+  void hold(std::size_t camera, Time now);
+  const IrisFault* fault(std::size_t camera, Time at) const;
 
   std::size_t cameras_;
   IrisModel model_;
   const rtos::Clock& clock_;
+  std::vector<IrisFault> faults_;
   std::array<Blades, kMaxCameras> blades_{};
+  std::array<double, kMaxCameras> held_{};  // openings at which faults hold blades
 };
 
 }  // namespace dottrack::host_sim

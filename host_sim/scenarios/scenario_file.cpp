@@ -82,10 +82,12 @@ class ScenarioReader {
       : complaint_(complaint), overrides_(overrides) {}
 
   Scene read(const toml::table& file) {
-    TableReader root(complaint_, file, "the scenario",
-                     {"scenario", "hall", "vehicle", "motion", "light", "light_change", "person",
-                      "look_alike", "cover", "cameras", "camera", "sensor", "grabber",
-                      "camera_fault", "camera_move", "iris", "can", "can_outage", "dots"});
+    TableReader root(
+        complaint_, file, "the scenario",
+        {"scenario", "hall",         "vehicle",     "motion",  "light",      "light_change",
+         "person",   "look_alike",   "cover",       "cameras", "camera",     "sensor",
+         "grabber",  "camera_fault", "camera_move", "iris",    "iris_fault", "light_control",
+         "can",      "can_outage",   "dots"});
     read_head(complaint_, root.table("scenario"), overrides_, scene_);
     Grounds grounds = read_hall(complaint_, root.table("hall"), scene_.seed);
     scene_.length_m = grounds.length_m;

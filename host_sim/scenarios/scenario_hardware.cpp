@@ -1,4 +1,5 @@
-// [grabber], [[camera_fault]], [[camera_move]], [iris], [can], [[can_outage]] and [dots].
+// [grabber], [[camera_fault]], [[camera_move]], [iris], [[iris_fault]], [light_control], [can],
+// [[can_outage]] and [dots].
 
 #include <algorithm>
 
@@ -79,13 +80,30 @@ CameraMove read_move(Complaint& complaint, const toml::table& table, const Scene
 }
 
 void read_iris(Complaint& complaint, const toml::table& table, IrisModel& iris) {
-  TableReader reader(complaint, table, "[iris]",
-                     {"opening", "min_opening", "speed_per_s", "backlash", "drift_per_s"});
+  TableReader reader(
+      complaint, table, "[iris]",
+      {"opening", "min_opening", "speed_per_s", "backlash", "drift_per_s", "wear_per_s"});
   iris.opening = reader.number("opening", iris.opening, kOpening);
   iris.min_opening = reader.number("min_opening", iris.min_opening, kOpening);
   iris.speed_per_s = reader.number("speed_per_s", iris.speed_per_s, kIrisSpeed);
   iris.backlash = reader.number("backlash", iris.backlash, kShare);
   iris.drift_per_s = reader.number("drift_per_s", iris.drift_per_s, kDrift);
+  iris.wear_per_s = reader.number("wear_per_s", iris.wear_per_s, kDrift);
+}
+
+IrisFault read_iris_fault(Complaint& complaint, const toml::table& table, const Scene& scene) {
+  TableReader reader(complaint, table, "[[iris_fault]]", {"camera", "kind", "from_s"});
+  IrisFault fault;
+  fault.camera = read_camera(reader, scene);
+  if (!reader.has("kind")) reader.text("kind");
+  fault.kind = static_cast<IrisFaultKind>(reader.choice("kind", {"stuck", "dead"}));
+  fault.from_s = reader.number("from_s", std::nullopt, kSeconds);
+  return fault;
+}
+
+bool read_light_control(Complaint& complaint, const toml::table& table) {
+  TableReader reader(complaint, table, "[light_control]", {"on"});
+  return reader.boolean("on", false);
 }
 
 void read_can(Complaint& complaint, const toml::table& table, CanModel& can) {
@@ -116,6 +134,12 @@ void read_hardware(Complaint& complaint, TableReader& root, Scene& scene) {
   std::stable_sort(scene.camera_moves.begin(), scene.camera_moves.end(),
                    [](const CameraMove& a, const CameraMove& b) { return a.at_s < b.at_s; });
   if (const auto* table = root.table("iris")) read_iris(complaint, *table, scene.iris);
+  for (const toml::table* table : root.tables("iris_fault")) {
+    scene.iris_faults.push_back(read_iris_fault(complaint, *table, scene));
+  }
+  if (const auto* table = root.table("light_control")) {
+    scene.light_control = read_light_control(complaint, *table);
+  }
   if (const auto* table = root.table("can")) read_can(complaint, *table, scene.can);
   for (const toml::table* table : root.tables("can_outage")) {
     TableReader reader(complaint, *table, "[[can_outage]]", {"from_s", "to_s"});

@@ -74,6 +74,8 @@ struct Scene {
   std::vector<CameraFault> camera_faults;
   std::vector<CameraMove> camera_moves;  // in order of time; `cameras` are as before all of them
   IrisModel iris;
+  std::vector<IrisFault> iris_faults;
+  bool light_control = false;  // whether the unit has it
   CanModel can;
 };
 

@@ -58,6 +58,13 @@ std::string can_toml(const CanModel& can) {
   return text;
 }
 
+// The cameras show a new setting in the second frame after it was made.
+constexpr std::string_view kLightToml = "\n[light]\ncontrol = true\ndelay_ticks = 2\n";
+
+std::string exposure_toml(const SceneCamera& camera) {
+  return fmt::format("exposure_ms = {:.6g}\ngain = {:.6g}\n", 1e3 * camera.exposure_s, camera.gain);
+}
+
 // `models`: one a camera.
 std::string rig_toml(const Scene& scene, std::span<const SimCamera> models) {
   const DotAppearance& dots = scene.appearance;
@@ -73,10 +80,12 @@ std::string rig_toml(const Scene& scene, std::span<const SimCamera> models) {
         camera.name, dots.distance_min_m, dots.distance_max_m, dots.intensity_min_dn,
         dots.intensity_max_dn, dots.min_contrast_dn, dots.background_px,
         model_file(camera.name, models[i].lens()), dots.min_contrast_part);
+    if (scene.light_control) text += exposure_toml(camera);
   }
   text += fmt::format(
       "\n[target]\nname = \"rover\"\ndots = \"target.csv\"\nupright = true\nmax_step_m = {:.3f}\n",
       dots.max_step_m);
+  if (scene.light_control) text += kLightToml;
   return text + can_toml(scene.can);
 }
 

@@ -5,6 +5,7 @@
 
 #include "app/core/estimation/dot_ellipse.h"
 #include "app/core/image/band.h"
+#include "app/core/image/bloom.h"
 #include "app/core/image/dot_centre.h"
 
 namespace dottrack::tracking {
@@ -31,6 +32,18 @@ bool same_region(const image::Region& a, const image::Region& b) {
   return (a.centroid_px - b.centroid_px).squaredNorm() < reach * reach;
 }
 
+// What a bloomed dot's centre is trusted to, of what another's is.
+constexpr double kBloomedDoubt = 8.0;
+
+bool is_bloomed(const ImageView& image, const image::Region& region, const ExpectedDot& expected) {
+  const geometry::ImageEllipse circle{expected.radius_px, expected.radius_px, 0.0};
+  const geometry::ImageEllipse& shape = expected.has_ellipse ? expected.ellipse : circle;
+  return image::bloom_evidence(
+             image, region,
+             image::extent_of(shape.semi_major_px, shape.semi_minor_px, shape.angle_rad))
+      .bloomed();
+}
+
 }  // namespace
 
 Follower::Follower(const core::Rig& rig, std::span<const geometry::Optics> optics,
@@ -55,8 +68,9 @@ double Follower::spread_px(const ExpectedDot& expected) const {
 }
 
 // The region nearest to the dot's place that may be the dot; false when there is none.
-bool Follower::choose_region(std::size_t camera, const ExpectedDot& expected,
-                             image::Regions& considered, image::Region& chosen) {
+bool Follower::choose_region(std::size_t camera, const ImageView& image,
+                             const ExpectedDot& expected, image::Regions& considered,
+                             SeenDot& seen) {
   double closest_px = kGateRadii * expected.radius_px + spread_px(expected);
   bool any = false;
   for (const image::Region& region : window_regions_) {
@@ -66,12 +80,15 @@ bool Follower::choose_region(std::size_t camera, const ExpectedDot& expected,
     if (expected.has_ellipse &&
         !estimation::may_be(expected.ellipse, estimation::ellipse_of(region))) {
       ++result_.rejected_ellipse[camera];
+      if (is_bloomed(image, region, expected)) ++result_.bloomed[camera];
       continue;
     }
     closest_px = distance_px;
     any = true;
-    chosen = region;
+    seen.region = region;
   }
+  seen.bloomed = any && is_bloomed(image, seen.region, expected);
+  if (seen.bloomed) ++result_.bloomed[camera];
   return any;
 }
 
@@ -85,9 +102,10 @@ void Follower::find_dot(std::size_t camera, std::size_t dot, const ImageView& im
   identifier_->identify(image, window_around(expected, spread_px(expected)), image::band_of(model),
                         expected.gate, window_regions_);
   SeenDot& seen = seen_.by_camera[camera][dot];
-  if (!choose_region(camera, expected, considered, seen.region)) return;
+  if (!choose_region(camera, image, expected, considered, seen)) return;
   seen.region.centroid_px = image::dot_centre(image, seen.region);
   seen.covariance_px2 = kCentreSigma_px * kCentreSigma_px * Eigen::Matrix2d::Identity();
+  if (seen.bloomed) seen.covariance_px2 *= kBloomedDoubt * kBloomedDoubt;
   const double diameter_m = rig_->target.dots[dot].diameter_m;
   seen.any = estimation::make_sighting(model, optics_[camera], {diameter_m, diameter_m},
                                        seen.region, seen.sighting);

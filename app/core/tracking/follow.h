@@ -27,6 +27,8 @@ struct FollowResult {
   std::uint16_t views_left_out = 0;  // seen in a dot's place, but at odds with the others
   // Regions in a dot's place, by camera, that do not have the shape of that dot.
   std::array<std::uint32_t, kMaxCameras> rejected_ellipse{};
+  // Regions in a dot's place, by camera, that blooming has grown.
+  std::array<std::uint32_t, kMaxCameras> bloomed{};
 };
 
 // Follows the target from frame to frame. The caller keeps the pose; nothing is remembered here.
@@ -66,8 +68,8 @@ class Follower {
   void update(std::size_t camera, const ImageView& image, image::Regions& considered);
   void find_dot(std::size_t camera, std::size_t dot, const ImageView& image,
                 image::Regions& considered);
-  bool choose_region(std::size_t camera, const ExpectedDot& expected, image::Regions& considered,
-                     image::Region& chosen);
+  bool choose_region(std::size_t camera, const ImageView& image, const ExpectedDot& expected,
+                     image::Regions& considered, SeenDot& seen);
   void drop_shared_regions(std::size_t camera);
   bool drop_wrong_shapes();
   bool has_wrong_shape(std::size_t camera, const PlacedDot& dot, const SeenDot& seen) const;

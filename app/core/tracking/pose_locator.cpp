@@ -27,9 +27,11 @@ double worst_dot_sigma_m(const core::Target& target, const core::Pose& pose) {
   return std::sqrt(worst);
 }
 
-core::DotView view_of(const image::Region& region) {
+core::DotView view_of(const SeenDot& seen) {
+  const image::Region& region = seen.region;
   core::DotView view;
   view.seen = true;
+  view.bloomed = seen.bloomed;
   view.pixel = region.centroid_px.cast<float>();
   view.semi_major_px = static_cast<float>(region.semi_major_px);
   view.semi_minor_px = static_cast<float>(region.semi_minor_px);
@@ -158,7 +160,7 @@ void PoseLocator::record(const SeenDots& seen) {
     for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
       const SeenDot& view = seen.by_camera[camera][dot];
       if (!view.any) continue;
-      dots_[dot].views[camera] = view_of(view.region);
+      dots_[dot].views[camera] = view_of(view);
       dots_[dot].views[camera].residual_px =
           static_cast<float>((view.sighting.pixel - view.sighting.pixel_of(place_of(dot))).norm());
     }

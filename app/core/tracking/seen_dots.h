@@ -13,6 +13,7 @@ namespace dottrack::tracking {
 
 struct SeenDot {
   bool any = false;
+  bool bloomed = false;
   image::Region region;  // chosen for the dot; its centroid is the dot's centre
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Identity();  // of that centre
   estimation::Sighting sighting;
