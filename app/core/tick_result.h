@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 
+#include "app/core/dot_flaw.h"
 #include "app/core/limits.h"
 #include "app/core/reason.h"
 #include "hal/base/camera_set.h"
@@ -42,6 +43,7 @@ struct FilteredPose {
 struct DotView {
   bool seen = false;  // in its place; whether it is used or not
   bool used = false;
+  DotFlaw flaw = DotFlaw::none;
   bool bloomed = false;  // charge has spilt along its columns: its centre is not where it seems
   Eigen::Vector2f pixel = Eigen::Vector2f::Zero();
   float semi_major_px = 0.0F;

@@ -81,8 +81,9 @@ void write_motion(const TickResult& result, Line& line) {
 
 // Of a camera that has been moved, what it sees is given, too: its repair rests on it.
 void write_view(const core::DotView& view, bool moved, Line& line) {
-  if (!view.used && !(moved && view.seen)) return line.skip(4);
-  line << view.pixel.x() << view.pixel.y() << view.residual_px << view.normalised_residual;
+  if (!view.used && !(moved && view.seen)) return line.skip(5);
+  line << view.pixel.x() << view.pixel.y() << view.residual_px << view.normalised_residual
+       << core::to_string(view.flaw);
 }
 
 void write_dot(const TickResult& result, std::size_t i, std::size_t cameras, Line& line) {
@@ -147,7 +148,7 @@ void header_of_dot(std::size_t dot, const std::vector<std::string>& cameras, Lin
     line << fmt::format("dot{}_{}", dot, name);
   }
   for (const std::string& camera : cameras) {
-    for (const std::string_view name : {"x_px", "y_px", "residual_px", "normalised"}) {
+    for (const std::string_view name : {"x_px", "y_px", "residual_px", "normalised", "flaw"}) {
       line << fmt::format("dot{}_{}_{}", dot, camera, name);
     }
   }

@@ -6,7 +6,7 @@
 #include "app/core/estimation/dot_ellipse.h"
 #include "app/core/image/band.h"
 #include "app/core/image/bloom.h"
-#include "app/core/image/dot_centre.h"
+#include "app/core/image/dot_fit.h"
 
 namespace dottrack::tracking {
 namespace {
@@ -17,7 +17,6 @@ constexpr double kWindowRadii = 3.0;
 constexpr double kGateRadii = 1.5;
 constexpr double kWindowRim_px = 2.0;
 constexpr double kMaxSpread = 4.0;  // that a window grows by, in dot radii
-constexpr double kCentreSigma_px = 0.03;
 
 image::Window window_around(const ExpectedDot& expected, double spread_px) {
   const double reach = kWindowRadii * expected.radius_px + kWindowRim_px + spread_px;
@@ -32,8 +31,8 @@ bool same_region(const image::Region& a, const image::Region& b) {
   return (a.centroid_px - b.centroid_px).squaredNorm() < reach * reach;
 }
 
-// What a bloomed dot's centre is trusted to, of what another's is.
-constexpr double kBloomedDoubt = 8.0;
+// Of a bloomed dot's centre, in semi-minor axes.
+constexpr double kBloomedDoubt = 0.25;
 
 bool is_bloomed(const ImageView& image, const image::Region& region, const ExpectedDot& expected) {
   const geometry::ImageEllipse circle{expected.radius_px, expected.radius_px, 0.0};
@@ -42,6 +41,20 @@ bool is_bloomed(const ImageView& image, const image::Region& region, const Expec
              image, region,
              image::extent_of(shape.semi_major_px, shape.semi_minor_px, shape.angle_rad))
       .bloomed();
+}
+
+void measure(const ImageView& image, const ExpectedDot& expected, SeenDot& seen) {
+  const image::ExpectedOutline outline{expected.ellipse.semi_major_px,
+                                       expected.ellipse.semi_minor_px, expected.ellipse.angle_rad};
+  const image::DotFit fit =
+      image::fit_dot(image, seen.region, expected.has_ellipse ? &outline : nullptr);
+  seen.region.centroid_px = fit.centre_px;
+  seen.covariance_px2 = fit.covariance_px2;
+  seen.flaw = fit.flaw;
+  if (!seen.bloomed || seen.flaw != core::DotFlaw::none) return;
+  const double doubt_px = kBloomedDoubt * seen.region.semi_minor_px;
+  seen.covariance_px2 += doubt_px * doubt_px * Eigen::Matrix2d::Identity();
+  seen.flaw = core::DotFlaw::saturated;
 }
 
 }  // namespace
@@ -103,9 +116,7 @@ void Follower::find_dot(std::size_t camera, std::size_t dot, const ImageView& im
                         expected.gate, window_regions_);
   SeenDot& seen = seen_.by_camera[camera][dot];
   if (!choose_region(camera, image, expected, considered, seen)) return;
-  seen.region.centroid_px = image::dot_centre(image, seen.region);
-  seen.covariance_px2 = kCentreSigma_px * kCentreSigma_px * Eigen::Matrix2d::Identity();
-  if (seen.bloomed) seen.covariance_px2 *= kBloomedDoubt * kBloomedDoubt;
+  measure(image, expected, seen);
   const double diameter_m = rig_->target.dots[dot].diameter_m;
   seen.any = estimation::make_sighting(model, optics_[camera], {diameter_m, diameter_m},
                                        seen.region, seen.sighting);

@@ -31,6 +31,7 @@ core::DotView view_of(const SeenDot& seen) {
   const image::Region& region = seen.region;
   core::DotView view;
   view.seen = true;
+  view.flaw = seen.flaw;
   view.bloomed = seen.bloomed;
   view.pixel = region.centroid_px.cast<float>();
   view.semi_major_px = static_cast<float>(region.semi_major_px);

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "app/core/dot_flaw.h"
 #include "app/core/estimation/sighting.h"
 #include "app/core/image/region.h"
 #include "app/core/limits.h"
@@ -14,6 +15,7 @@ namespace dottrack::tracking {
 struct SeenDot {
   bool any = false;
   bool bloomed = false;
+  core::DotFlaw flaw = core::DotFlaw::none;
   image::Region region;  // chosen for the dot; its centroid is the dot's centre
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Identity();  // of that centre
   estimation::Sighting sighting;

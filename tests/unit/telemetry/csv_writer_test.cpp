@@ -45,7 +45,7 @@ class CsvFile : public testing::Test {
 TEST_F(CsvFile, EveryColumnHasANameOfItsOwn) {
   EXPECT_EQ(std::set<std::string>(names_.begin(), names_.end()).size(), names_.size());
   EXPECT_EQ(names_.size(),
-            9U + 8 + 21 + 3 * (5 + 2 * 4) + 2 * 13 + 15 + 8 + (1 + 7 + 21 + 6 + 6 + 2));
+            9U + 8 + 21 + 3 * (5 + 2 * 5) + 2 * (13 + 7) + 15 + 8 + (1 + 7 + 21 + 6 + 6 + 2));
 }
 
 TEST_F(CsvFile, ATickWithAPoseHasItsNumbers) {

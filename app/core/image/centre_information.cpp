@@ -1,0 +1,124 @@
+#include "app/core/image/centre_information.h"
+
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace dottrack::image {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Matrix4d;
+using Eigen::Vector2d;
+using Eigen::Vector4d;
+using Matrix42 = Eigen::Matrix<double, 4, 2>;
+
+// A slope of a small dot's light is nearly a shift of the dot. What integrals along the outline
+// leave of the difference is wrong by about this times (blur / radius)^2 of the whole; so much is
+// added, and a small dot's slope of light counts for little.
+constexpr double kBlurredLight = 8.0;
+
+const double kRootPi = std::sqrt(std::numbers::pi);
+
+// Half a turn in equal steps; the integrands are the same on the other half.
+constexpr std::size_t kNodes = 8;
+constexpr double kC1 = 0.92387953251128674;
+constexpr double kC2 = 0.70710678118654752;
+constexpr double kC3 = 0.38268343236508977;
+constexpr std::array<std::array<double, 2>, kNodes> kCircle{{{1.0, 0.0},
+                                                             {kC1, kC3},
+                                                             {kC2, kC2},
+                                                             {kC3, kC1},
+                                                             {0.0, 1.0},
+                                                             {-kC3, kC1},
+                                                             {-kC2, kC2},
+                                                             {-kC1, kC3}}};
+
+Matrix2d lower_root(const Matrix2d& m) {
+  Matrix2d root = Matrix2d::Zero();
+  root(0, 0) = std::sqrt(m(0, 0));
+  root(1, 0) = m(1, 0) / root(0, 0);
+  root(1, 1) = std::sqrt(m(1, 1) - root(1, 0) * root(1, 0));
+  return root;
+}
+
+Vector2d third_harmonics(const Vector2d& u) {
+  const double x = u.x();
+  const double y = u.y();
+  return {x * x * x - 3.0 * x * y * y, 3.0 * x * x * y - y * y * y};
+}
+
+}  // namespace
+
+// Across an edge of blur s, by distance, the integral of (phi / s)^2 is 1 / (2 sqrt(pi) s), of e
+// phi / s it is 1/2, and e - e^2 has s / sqrt(pi).
+CentreInformation::CentreInformation(const OutlineModel& model, const FitWindow& window) {
+  integrate(model);
+  const double c = model.contrast_dn;
+  centre_slope_ = c * area_;
+  per_scatter_ = window.scatter.inverse();
+  const Matrix2d centre = c * c / (2.0 * kRootPi * model.blur_px) * normal_normal_;
+  covariance_ = (centre - centre_slope_ * centre_slope_ * per_scatter_).inverse();
+}
+
+void CentreInformation::integrate(const OutlineModel& model) {
+  root_ = lower_root(model.shape.inverse());
+  area_ = std::numbers::pi * root_.determinant();
+  for (const auto& node : kCircle) {
+    const Vector2d e(node[0], node[1]);
+    const Vector2d u = root_ * e;
+    const double ds = (root_ * Vector2d(-e.y(), e.x())).norm() * 2.0 * std::numbers::pi / kNodes;
+    const Vector2d g = model.shape * u;
+    const double h = 1.0 / g.norm();
+    const Vector2d n = h * g;
+    const Vector2d third = h * third_harmonics(u);
+    length_ += ds;
+    normal_normal_ += ds * n * n.transpose();
+    place_place_ += ds * u * u.transpose();
+    third_third_ += ds * third * third.transpose();
+    third_normal_ += ds * third * n.transpose();
+    third_place_ += ds * third * u.transpose();
+  }
+}
+
+Vector2d CentreInformation::centre_gradient(const OutlineModel& model, const ResidualSums& sums) {
+  return model.contrast_dn / model.blur_px *
+         (model.shape * Vector2d(sums[ResidualSums::kRwx], sums[ResidualSums::kRwy]));
+}
+
+CentreVector CentreInformation::step(const CentreVector& g) const {
+  CentreVector step;
+  step.centre = covariance_ * (g.centre - centre_slope_ * (per_scatter_ * g.slope));
+  step.slope = per_scatter_ * (g.slope - centre_slope_ * step.centre);
+  return step;
+}
+
+double CentreInformation::asymmetry(const OutlineModel& model, const ResidualSums& sums,
+                                    const CentreVector& step) const {
+  const double c = model.contrast_dn;
+  const double s = model.blur_px;
+  const double edge = c * c / (2.0 * kRootPi * s);
+  const Matrix2d light =
+      0.25 * area_ * model.shape.inverse() + area_ * s * s * Matrix2d::Identity();
+  const double blurred = kBlurredLight * s * s * std::numbers::pi / area_;
+  Matrix42 by_centre;
+  by_centre << edge * third_normal_, 0.5 * c * area_ * Matrix2d::Identity();
+  Matrix42 by_slope;
+  by_slope << c * third_place_, light;
+  Matrix4d information;
+  information << edge * third_third_, 0.5 * c * third_place_, 0.5 * c * third_place_.transpose(),
+      (1.0 + blurred) * light - s / kRootPi * place_place_;
+  const double scale = c / s;
+  Vector4d left;
+  left << scale * sums[ResidualSums::kRw3c], scale * sums[ResidualSums::kRw3s],
+      sums[ResidualSums::kRex], sums[ResidualSums::kRey];
+  left -= by_centre * step.centre + by_slope * step.slope;
+  // Less the centre's and the slope's share.
+  const Matrix42 own = by_centre - centre_slope_ * by_slope * per_scatter_;
+  information -= by_slope * per_scatter_ * by_slope.transpose();
+  information -= own * covariance_ * own.transpose();
+  return left.dot(information.inverse() * left);
+}
+
+}  // namespace dottrack::image

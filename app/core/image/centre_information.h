@@ -1,0 +1,61 @@
+#pragma once
+// What a dot's pixels say about its centre and the background's slope: Fisher's information at unit
+// noise, from integrals along the outline instead of sums over pixels. Of a symmetric dot neither
+// has to do with shape, blur, contrast and level.
+
+#include <Eigen/Core>
+
+#include "app/core/image/outline_sums.h"
+
+namespace dottrack::image {
+
+// The pixels that a model is fitted to, those of the dot and of its ring.
+struct FitWindow {
+  double count = 0.0;
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();     // place, in the patch's coordinates
+  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();  // sum of (place - mean)(place - mean)^T
+};
+
+// Derivatives of half the sum of squares, or a step. The slope turns about the window's mean.
+struct CentreVector {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+};
+
+class CentreInformation {
+ public:
+  CentreInformation(const OutlineModel& model, const FitWindow& window);
+
+  double area_px2() const { return area_; }
+  double length_px() const { return length_; }
+  // Lower; shape^-1 = root root^T.
+  const Eigen::Matrix2d& root() const { return root_; }
+  static Eigen::Vector2d centre_gradient(const OutlineModel& model, const ResidualSums& sums);
+  // The Fisher scoring step.
+  CentreVector step(const CentreVector& gradient) const;
+  // Of the centre at unit noise.
+  const Eigen::Matrix2d& covariance() const { return covariance_; }
+  // How much the residuals' asymmetry shows of an outline with third harmonics and of a dot with a
+  // slope of light of its own: chi-square of 4 degrees of freedom at unit noise, after the step.
+  double asymmetry(const OutlineModel& model, const ResidualSums& sums,
+                   const CentreVector& step) const;
+
+ private:
+  void integrate(const OutlineModel& model);
+
+  Eigen::Matrix2d root_;
+  double area_ = 0.0;
+  double length_ = 0.0;
+  // Along the outline, by length: n n^T, u u^T and what belongs to the third harmonics.
+  Eigen::Matrix2d normal_normal_ = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d place_place_ = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d third_third_ = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d third_normal_ = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d third_place_ = Eigen::Matrix2d::Zero();
+
+  double centre_slope_ = 0.0;  // times the identity, by Gauss's theorem
+  Eigen::Matrix2d per_scatter_;
+  Eigen::Matrix2d covariance_;
+};
+
+}  // namespace dottrack::image

@@ -1,0 +1,286 @@
+#include "app/core/image/outline_sums.h"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "app/core/image/outline_sums.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, by its rules.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace dottrack::image {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Lanes = hn::CappedTag<float, DotPixels::kBlock>;
+using Vector = hn::Vec<Lanes>;
+constexpr Lanes kLanes;
+constexpr int kStep = static_cast<int>(MaxLanes(Lanes()));
+constexpr int kBlock = DotPixels::kBlock;
+
+HWY_INLINE Vector all(double value) {
+  return hn::Set(kLanes, static_cast<float>(value));
+}
+
+HWY_INLINE Vector grey_of(const std::uint8_t* pixels) {
+  const hn::Rebind<std::int32_t, Lanes> wide;
+  const hn::Rebind<std::uint8_t, Lanes> bytes;
+  return hn::ConvertTo(kLanes, hn::PromoteTo(wide, hn::LoadU(bytes, pixels)));
+}
+
+bool list(const ImageView& patch, const PatchRows& rows, DotPixels& pixels) {
+  const Vector iota = hn::Iota(kLanes, 0);
+  int count = 0;
+  for (int y = 0; y < rows.count; ++y) {
+    const Span span = rows.inner[static_cast<std::size_t>(y)];
+    const int n = span.last - span.first + 1;
+    if (count + n > DotPixels::kCapacity) return false;
+    const std::uint8_t* row = patch.row(y);
+    for (int k = 0; k < n; k += kStep) {
+      const auto at = static_cast<std::size_t>(count + k);
+      hn::StoreU(hn::Add(iota, all(span.first + k)), kLanes, pixels.x.data() + at);
+      hn::StoreU(all(y), kLanes, pixels.y.data() + at);
+      hn::StoreU(grey_of(row + span.first + k), kLanes, pixels.grey.data() + at);
+    }
+    count += n;
+  }
+  // What is read behind the last pixel is far from the dot.
+  std::fill_n(pixels.x.begin() + count, kBlock, 1e4F);
+  std::fill_n(pixels.y.begin() + count, kBlock, 0.0F);
+  std::fill_n(pixels.grey.begin() + count, kBlock, 0.0F);
+  pixels.count = count;
+  return true;
+}
+
+// Up to |z| = 3, where the normal distribution is cut off: c0 + c1 u + ... to a part in 1e5.
+HWY_INLINE Vector polynomial(Vector u, const std::array<double, 8>& c) {
+  Vector sum = all(c[7]);
+  for (std::size_t i = 7; i-- > 0;) sum = hn::Add(hn::Mul(sum, u), all(c[i]));
+  return sum;
+}
+constexpr double kCut = 3.0;
+constexpr std::array<double, 8> kDensity{
+    0.4000143343979335,    -0.19989851011803203,   0.049733726524141056,  -0.008083353488503389,
+    0.0009236040676652996, -7.234359202077163e-05, 3.461036615202008e-06, -7.515042188186805e-08};
+// Its integral over z, divided by z.
+constexpr std::array<double, 8> kDistribution{
+    0.4000143343979335,     -0.06663283670601068,    0.009946745304828211,   -0.0011547647840719126,
+    0.00010262267418503329, -6.5766901837065124e-06, 2.6623358576476984e-07, -5.01002812545787e-09};
+
+struct LaneModel {
+  HWY_INLINE explicit LaneModel(const OutlineModel& model)
+      : x(all(model.centre.x())),
+        y(all(model.centre.y())),
+        xx(all(model.shape(0, 0))),
+        xy(all(model.shape(0, 1))),
+        yy(all(model.shape(1, 1))),
+        trace(all(model.shape.trace())),
+        blur2(all(model.blur_px * model.blur_px)),
+        per_blur(all(1.0 / model.blur_px)),
+        contrast(all(model.contrast_dn)),
+        background(all(model.background_dn)),
+        per_x(all(model.slope_dn.x())),
+        per_y(all(model.slope_dn.y())) {}
+
+  Vector x, y, xx, xy, yy, trace, blur2, per_blur, contrast, background, per_x, per_y;
+};
+
+// Of some pixels against the outline.
+struct Edge {
+  Vector e, p, z, w;
+};
+
+// With m = sqrt(u^T A u) a point is h (1 - m) inside the outline, h = m / |A u|. Blur moves a
+// curved edge inwards: the mean of m over a Gaussian about u is m + blur^2 Laplacian(m) / 2, with
+// Laplacian(m) = (trace A - 1 / h^2) / m.
+HWY_INLINE Edge edge_at(const LaneModel& model, Vector x, Vector y) {
+  const Vector tiny = all(1e-4);  // the middle of the dot divides by nothing
+  const Vector gx = hn::Add(hn::Mul(model.xx, x), hn::Mul(model.xy, y));
+  const Vector gy = hn::Add(hn::Mul(model.xy, x), hn::Mul(model.yy, y));
+  const Vector q = hn::Add(hn::Mul(x, gx), hn::Mul(y, gy));
+  const Vector g2 = hn::Add(hn::Mul(gx, gx), hn::Mul(gy, gy));
+  const Vector per_h2 = hn::Div(hn::Add(g2, hn::Mul(model.trace, all(0.5e-4))), hn::Add(q, tiny));
+  const Vector m = hn::Sqrt(hn::Add(q, hn::Mul(model.blur2, hn::Sub(model.trace, per_h2))));
+  const Vector h_per_m = hn::Div(all(1.0), hn::Mul(hn::Sqrt(per_h2), m));
+  const Vector h = hn::Mul(h_per_m, m);
+  const Vector z = hn::Mul(hn::Sub(h, hn::Mul(h, m)), model.per_blur);
+  const Vector cut = hn::Min(hn::Max(z, all(-kCut)), all(kCut));
+  const Vector z2 = hn::Mul(cut, cut);
+  const Vector e = hn::Add(all(0.5), hn::Mul(cut, polynomial(z2, kDistribution)));
+  const Vector p = hn::IfThenElseZero(hn::Lt(hn::Abs(z), all(kCut)), polynomial(z2, kDensity));
+  return {e, p, cut, hn::Mul(p, h_per_m)};
+}
+
+template <std::size_t kTerms>
+class LaneSums {
+ public:
+  // Spelled out: a constructor of the compiler's making would be built for another processor.
+  HWY_INLINE LaneSums() {
+    for (Vector& sum : of_) sum = hn::Zero(kLanes);
+  }
+  HWY_INLINE void add(std::size_t term, Vector value) { of_[term] = hn::Add(of_[term], value); }
+  HWY_INLINE void store(int first, std::array<std::array<float, kBlock>, kTerms>& to) const {
+    for (std::size_t i = 0; i < kTerms; ++i) hn::StoreU(of_[i], kLanes, to[i].data() + first);
+  }
+
+ private:
+  Vector of_[kTerms];
+};
+
+// A vector of pixels against the model.
+struct Compared {
+  Vector x, y, r;
+  Edge edge;
+};
+
+HWY_INLINE Compared compare(const DotPixels& pixels, const LaneModel& model, int i) {
+  const auto at = static_cast<std::size_t>(i);
+  const Vector end = hn::Set(kLanes, static_cast<float>(pixels.count));
+  const auto valid = hn::Lt(hn::Iota(kLanes, static_cast<float>(i)), end);
+  const Vector x = hn::Sub(hn::LoadU(kLanes, pixels.x.data() + at), model.x);
+  const Vector y = hn::Sub(hn::LoadU(kLanes, pixels.y.data() + at), model.y);
+  const Edge edge = edge_at(model, x, y);
+  const Vector plane =
+      hn::Add(model.background, hn::Add(hn::Mul(model.per_x, x), hn::Mul(model.per_y, y)));
+  const Vector expected = hn::Add(plane, hn::Mul(model.contrast, edge.e));
+  const Vector grey = hn::LoadU(kLanes, pixels.grey.data() + at);
+  return {x, y, hn::IfThenElseZero(valid, hn::Sub(grey, expected)), edge};
+}
+
+template <class Sums>
+HWY_INLINE void add_common(const Compared& at, Sums& sums) {
+  const Vector rw = hn::Mul(at.r, at.edge.w);
+  const Vector rwx = hn::Mul(rw, at.x);
+  const Vector rwy = hn::Mul(rw, at.y);
+  sums.add(ResidualSums::kR, at.r);
+  sums.add(ResidualSums::kRx, hn::Mul(at.r, at.x));
+  sums.add(ResidualSums::kRy, hn::Mul(at.r, at.y));
+  sums.add(ResidualSums::kRe, hn::Mul(at.r, at.edge.e));
+  sums.add(ResidualSums::kRwx, rwx);
+  sums.add(ResidualSums::kRwy, rwy);
+  sums.add(ResidualSums::kRwxx, hn::Mul(rwx, at.x));
+  sums.add(ResidualSums::kRwxy, hn::Mul(rwx, at.y));
+  sums.add(ResidualSums::kRwyy, hn::Mul(rwy, at.y));
+  sums.add(ResidualSums::kRpz, hn::Mul(at.r, hn::Mul(at.edge.p, at.edge.z)));
+}
+
+template <class Sums>
+HWY_INLINE void add_failing(const Compared& at, Sums& sums) {
+  const Vector re = hn::Mul(at.r, at.edge.e);
+  const Vector rw = hn::Mul(at.r, at.edge.w);
+  const Vector xx = hn::Mul(at.x, at.x);
+  const Vector yy = hn::Mul(at.y, at.y);
+  const Vector xy = hn::Mul(at.x, at.y);
+  const Vector difference = hn::Mul(rw, hn::Sub(xx, yy));
+  const Vector twice = hn::Mul(rw, hn::Add(xy, xy));
+  sums.add(ResidualSums::kRw3c, hn::Sub(hn::Mul(difference, at.x), hn::Mul(twice, at.y)));
+  sums.add(ResidualSums::kRw3s, hn::Add(hn::Mul(difference, at.y), hn::Mul(twice, at.x)));
+  sums.add(ResidualSums::kRex, hn::Mul(re, at.x));
+  sums.add(ResidualSums::kRey, hn::Mul(re, at.y));
+  sums.add(ResidualSums::kRr, hn::Mul(at.r, at.r));
+  sums.add(ResidualSums::kRre, hn::Mul(at.r, re));
+  sums.add(ResidualSums::kRrp, hn::Mul(at.r, hn::Mul(at.r, at.edge.p)));
+}
+
+template <class Sums>
+HWY_INLINE void add_derivatives(const Compared& at, Sums& sums) {
+  using Term = DerivativeSums;
+  const Vector e = at.edge.e;
+  const Vector pz = hn::Mul(at.edge.p, at.edge.z);
+  const Vector wx = hn::Mul(at.edge.w, at.x);
+  const Vector wxx = hn::Mul(wx, at.x);
+  const Vector wxy = hn::Mul(wx, at.y);
+  const Vector wyy = hn::Mul(hn::Mul(at.edge.w, at.y), at.y);
+  sums.add(Term::kWxxxx, hn::Mul(wxx, wxx));
+  sums.add(Term::kWxxxy, hn::Mul(wxx, wxy));
+  sums.add(Term::kWxxyy, hn::Mul(wxy, wxy));
+  sums.add(Term::kWxyyy, hn::Mul(wxy, wyy));
+  sums.add(Term::kWyyyy, hn::Mul(wyy, wyy));
+  sums.add(Term::kWxx, wxx);
+  sums.add(Term::kWxy, wxy);
+  sums.add(Term::kWyy, wyy);
+  sums.add(Term::kEwxx, hn::Mul(e, wxx));
+  sums.add(Term::kEwxy, hn::Mul(e, wxy));
+  sums.add(Term::kEwyy, hn::Mul(e, wyy));
+  sums.add(Term::kPzwxx, hn::Mul(pz, wxx));
+  sums.add(Term::kPzwxy, hn::Mul(pz, wxy));
+  sums.add(Term::kPzwyy, hn::Mul(pz, wyy));
+  sums.add(Term::kPzpz, hn::Mul(pz, pz));
+  sums.add(Term::kPze, hn::Mul(pz, e));
+  sums.add(Term::kPz, pz);
+  sums.add(Term::kEe, hn::Mul(e, e));
+  sums.add(Term::kE, e);
+}
+
+// Lane i of every block goes to sum i, however many lanes are worked on at a time.
+template <std::size_t kTerms>
+HWY_INLINE void total(const std::array<std::array<float, kBlock>, kTerms>& lanes, double* sums) {
+  for (std::size_t i = 0; i < kTerms; ++i) {
+    const auto& l = lanes[i];
+    sums[i] =
+        static_cast<double>(((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7])));
+  }
+}
+
+void sum_all(const DotPixels& pixels, const OutlineModel& of, ResidualSums& residuals) {
+  const LaneModel model(of);
+  std::array<std::array<float, kBlock>, ResidualSums::kTerms> lanes;
+  for (int part = 0; part < kBlock; part += kStep) {
+    LaneSums<ResidualSums::kTerms> sums;
+    for (int i = part; i < pixels.count + part; i += kBlock) {
+      const Compared at = compare(pixels, model, i);
+      add_common(at, sums);
+      add_failing(at, sums);
+    }
+    sums.store(part, lanes);
+  }
+  total(lanes, residuals.of.data());
+}
+
+void sum_both(const DotPixels& pixels, const OutlineModel& of, ResidualSums& residuals,
+              DerivativeSums& derivatives) {
+  const LaneModel model(of);
+  std::array<std::array<float, kBlock>, ResidualSums::kCommon> lanes;
+  std::array<std::array<float, kBlock>, DerivativeSums::kTerms> derivative_lanes;
+  for (int part = 0; part < kBlock; part += kStep) {
+    LaneSums<ResidualSums::kCommon> sums;
+    LaneSums<DerivativeSums::kTerms> derivative_sums;
+    for (int i = part; i < pixels.count + part; i += kBlock) {
+      const Compared at = compare(pixels, model, i);
+      add_common(at, sums);
+      add_derivatives(at, derivative_sums);
+    }
+    sums.store(part, lanes);
+    derivative_sums.store(part, derivative_lanes);
+  }
+  total(lanes, residuals.of.data());
+  total(derivative_lanes, derivatives.of.data());
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace dottrack::image
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace dottrack::image {
+
+HWY_EXPORT(list);
+HWY_EXPORT(sum_all);
+HWY_EXPORT(sum_both);
+
+bool list_pixels(const ImageView& patch, const PatchRows& rows, DotPixels& pixels) {
+  return HWY_DYNAMIC_DISPATCH(list)(patch, rows, pixels);
+}
+
+void sum_residuals(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals) {
+  HWY_DYNAMIC_DISPATCH(sum_all)(pixels, model, residuals);
+}
+
+void sum_derivatives(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals,
+                     DerivativeSums& derivatives) {
+  HWY_DYNAMIC_DISPATCH(sum_both)(pixels, model, residuals, derivatives);
+}
+
+}  // namespace dottrack::image
+#endif

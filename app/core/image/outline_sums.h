@@ -1,0 +1,88 @@
+#pragma once
+// What a blurred ellipse on a sloping background leaves of a dot's pixels, summed up against the
+// ways in which that model can give.
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "app/core/image/ring_sums.h"
+#include "hal/base/image_view.h"
+
+namespace dottrack::image {
+
+// Of an ellipse u^T A u = 1 about its centre, blurred by a Gaussian, in a patch's coordinates:
+//   grey = background + slope . u + contrast Phi(distance inside the outline / blur).
+// `blur` is the lens's and the pixel's own together: blur^2 = psf^2 + 1/12.
+struct OutlineModel {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d shape = Eigen::Matrix2d::Identity();  // A, 1/px^2
+  double blur_px = 0.0;
+  double contrast_dn = 0.0;
+  double background_dn = 0.0;  // at the centre
+  Eigen::Vector2d slope_dn = Eigen::Vector2d::Zero();
+};
+
+// A^-1 of an ellipse.
+inline Eigen::Matrix2d ellipse_matrix(double major_px, double minor_px, double angle_rad) {
+  const Eigen::Vector2d along(std::cos(angle_rad), std::sin(angle_rad));
+  const Eigen::Vector2d across(-along.y(), along.x());
+  return major_px * major_px * along * along.transpose() +
+         minor_px * minor_px * across * across.transpose();
+}
+
+// A dot's pixels, one after the other, in the patch's coordinates.
+struct DotPixels {
+  static constexpr int kCapacity = 2368;
+  static constexpr int kBlock = 8;  // that many are worked on at a time
+
+  int count = 0;
+  std::array<float, kCapacity + kBlock> x;
+  std::array<float, kCapacity + kBlock> y;
+  std::array<float, kCapacity + kBlock> grey;
+};
+
+// The pixels of the rows' inner spans. False when there is no room for them.
+bool list_pixels(const ImageView& patch, const PatchRows& rows, DotPixels& pixels);
+
+// Sums over the pixels of the residual r = grey - model. u: place from the centre; e: how much of
+// a pixel the dot covers; p: the standard normal density at z, the distance from the outline in
+// blurs; w: p over the length of A u, which is how far the outline moves when u^T A u does.
+struct ResidualSums {
+  // clang-format off
+  enum Term : std::size_t {
+    kR, kRx, kRy, kRe, kRwx, kRwy, kRwxx, kRwxy, kRwyy, kRpz,
+    kCommon,
+    // How the model may fail: the outline's third harmonics and a slope of the dot's own light.
+    kRw3c = kCommon, kRw3s, kRex, kRey, kRr, kRre, kRrp,
+    kTerms
+  };
+  // clang-format on
+  std::array<double, kTerms> of{};
+
+  double operator[](Term term) const { return of[term]; }
+};
+
+// Sums of products of the model's derivatives, as above without r; wxxyy is w^2 x^2 y^2 and so on.
+struct DerivativeSums {
+  // clang-format off
+  enum Term : std::size_t {
+    kWxxxx, kWxxxy, kWxxyy, kWxyyy, kWyyyy,
+    kWxx, kWxy, kWyy, kEwxx, kEwxy, kEwyy, kPzwxx, kPzwxy, kPzwyy,
+    kPzpz, kPze, kPz, kEe, kE,
+    kTerms
+  };
+  // clang-format on
+  std::array<double, kTerms> of{};
+
+  double operator[](Term term) const { return of[term]; }
+};
+
+// Single precision in lanes; the same on every processor. The first leaves out what follows
+// kCommon.
+void sum_derivatives(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals,
+                     DerivativeSums& derivatives);
+void sum_residuals(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals);
+
+}  // namespace dottrack::image
