@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <limits>
 
 #include "app/core/image/band_bitmap.h"
@@ -59,8 +58,8 @@ constexpr PixelKey kNever = std::numeric_limits<PixelKey>::max();
 Candidate candidate_of(const SmallComponent& small) {
   const auto x_max = static_cast<std::int16_t>(small.x_min + small.width_px - 1);
   const auto y_max = static_cast<std::int16_t>(small.y_min + small.height_px - 1);
-  return {{0, Components::kEnd, Components::kEnd, std::popcount(small.bits), small.x_min, x_max,
-           small.y_min, y_max},
+  return {{0, Components::kEnd, Components::kEnd, small.area_px, small.x_min, x_max, small.y_min,
+           y_max},
           small.bits};
 }
 
