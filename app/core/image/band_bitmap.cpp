@@ -17,30 +17,23 @@ HWY_BEFORE_NAMESPACE();
 namespace dottrack::image {
 namespace HWY_NAMESPACE {
 
-// How far ahead of a row the image is sent for: without a background, the next rows but one; with
-// one, those that it has not seen yet.
+// How far ahead of a row the image is sent for.
 constexpr int kRowsAhead = 2;
 
 // What it takes to be in band, from the cheapest case to the general one.
 struct AtLeast {
-  static constexpr bool kTellsOthers = false;
   std::uint8_t lo;
-
-  void start_row(int) {}
   template <class D, class V = hn::Vec<D>>
-  HWY_INLINE hn::Mask<D> operator()(D d, V v, int) const {
+  HWY_INLINE hn::Mask<D> operator()(D d, V v) const {
     return hn::Eq(hn::SaturatedSub(hn::Set(d, lo), v), hn::Zero(d));
   }
 };
 
 struct Between {  // lo <= v <= lo + span, as one unsigned comparison: (v - lo) mod 256 <= span
-  static constexpr bool kTellsOthers = false;
   std::uint8_t lo;
   std::uint8_t span;
-
-  void start_row(int) {}
   template <class D, class V = hn::Vec<D>>
-  HWY_INLINE hn::Mask<D> operator()(D d, V v, int) const {
+  HWY_INLINE hn::Mask<D> operator()(D d, V v) const {
     const auto above = hn::Sub(v, hn::Set(d, lo));
     return hn::Eq(hn::Min(above, hn::Set(d, span)), above);
   }
@@ -50,78 +43,46 @@ HWY_INLINE Between between(std::uint8_t lo, std::uint8_t hi) {
   return {lo, static_cast<std::uint8_t>(hi - lo)};
 }
 
-// On the right side of the pixel's own threshold, which contains the near end of the band. Tells
-// the pixels that are not: turning a word around is cheaper than turning its masks.
-template <bool kBright>
-struct Beyond {
-  static constexpr bool kTellsOthers = true;
-  const Thresholds& thresholds;
-  const std::uint8_t* row = nullptr;
-
-  void start_row(int y) { row = thresholds.row(y); }
-  template <class D, class V = hn::Vec<D>>
-  HWY_INLINE hn::Mask<D> operator()(D d, V v, int x) const {
-    const auto threshold = hn::LoadU(d, row + x);
-    const auto within = kBright ? hn::Max(v, threshold) : hn::Min(v, threshold);
-    return hn::Eq(within, threshold);
-  }
-};
-
-template <bool kBright>
-struct Both {
-  static constexpr bool kTellsOthers = false;
-  Beyond<kBright> beyond;
-  Between between;
-
-  void start_row(int y) { beyond.start_row(y); }
-  template <class D, class V = hn::Vec<D>>
-  HWY_INLINE hn::Mask<D> operator()(D d, V v, int x) const {
-    return hn::AndNot(beyond(d, v, x), between(d, v, x));
-  }
-};
-
-// Of the pixels from column x of the window on.
 template <class Test>
-HWY_INLINE std::uint64_t band_word(const std::uint8_t* pixels, int x, Test in_band) {
+HWY_INLINE std::uint64_t band_word(const std::uint8_t* pixels, Test in_band) {
   const hn::CappedTag<std::uint8_t, 64> d;
   constexpr std::size_t kLanes = MaxLanes(d);
   std::uint64_t word = 0;
   for (std::size_t i = 0; i < 64; i += kLanes) {
-    word |= bits_of(d, in_band(d, hn::LoadU(d, pixels + i), x + static_cast<int>(i))) << i;
+    word |= bits_of(d, in_band(d, hn::LoadU(d, pixels + i))) << i;
   }
-  return Test::kTellsOthers ? ~word : word;
+  return word;
 }
 
 // The last, incomplete word of a row. `before` bytes may be read in front of `pixels`.
 template <class Test>
-HWY_INLINE std::uint64_t band_tail(const std::uint8_t* pixels, int count, int before, int x,
+HWY_INLINE std::uint64_t band_tail(const std::uint8_t* pixels, int count, int before,
                                    Test in_band) {
   const int missing = 64 - count;
   if (before >= missing) {
-    return band_word(pixels - missing, x - missing, in_band) >> static_cast<unsigned>(missing);
+    return band_word(pixels - missing, in_band) >> static_cast<unsigned>(missing);
   }
   std::array<std::uint8_t, 64> copy{};
   std::memcpy(copy.data(), pixels, static_cast<std::size_t>(count));
-  return band_word(copy.data(), x, in_band) & (~std::uint64_t{0} >> static_cast<unsigned>(missing));
+  return band_word(copy.data(), in_band) & (~std::uint64_t{0} >> static_cast<unsigned>(missing));
 }
 
 template <class Test>
-HWY_INLINE void fill(const ImageView& image, const Window& window, Test in_band, int rows_ahead,
-                     int y_first, int y_end, Bitmap& bitmap) {
+HWY_INLINE void fill(const ImageView& image, const Window& window, Test in_band, int y_first,
+                     int y_end, Bitmap& bitmap) {
   const int full_words = bitmap.width_px() / 64;
   const int tail = bitmap.width_px() % 64;
   constexpr int kGroupWords = Bitmap::kGroupWords;
   static_assert(kGroupWords == 4);
-  const std::ptrdiff_t ahead = rows_ahead * image.stride_bytes;
+  const std::ptrdiff_t ahead = kRowsAhead * image.stride_bytes;
   PixelKey* occupied = bitmap.occupied_end();
   for (int y = y_first; y < y_end; ++y) {
     const std::uint8_t* pixels = image.row(window.y_min + y) + window.x_min;
     std::uint64_t* words = bitmap.row(y);
-    in_band.start_row(y);
     const auto put = [=](int w) HWY_ATTR {
       const std::uint8_t* first = pixels + std::ptrdiff_t{64} * w;
       hwy::Prefetch(first + ahead);
-      return words[w] = band_word(first, 64 * w, in_band);
+      return words[w] = band_word(first, in_band);
     };
     const auto list = [y, &occupied](int w, std::uint64_t all) HWY_ATTR {
       *occupied = y * kRowStep + 64 * w;
@@ -136,7 +97,7 @@ HWY_INLINE void fill(const ImageView& image, const Window& window, Test in_band,
     for (; w < full_words; ++w) all |= put(w);
     if (tail != 0) {
       const int x = 64 * w;
-      all |= words[w++] = band_tail(pixels + x, tail, window.x_min + x, x, in_band);
+      all |= words[w++] = band_tail(pixels + x, tail, window.x_min + x, in_band);
     }
     if (w > group) list(group, all);
     std::fill_n(words + w, kGroupWords, 0U);
@@ -147,31 +108,9 @@ HWY_INLINE void fill(const ImageView& image, const Window& window, Test in_band,
 void fill_rows(const ImageView& image, const Window& window, std::uint8_t lo, std::uint8_t hi,
                int y_first, int y_end, Bitmap& bitmap) {
   if (hi == 255) {
-    fill(image, window, AtLeast{lo}, kRowsAhead, y_first, y_end, bitmap);
+    fill(image, window, AtLeast{lo}, y_first, y_end, bitmap);
   } else {
-    fill(image, window, between(lo, hi), kRowsAhead, y_first, y_end, bitmap);
-  }
-}
-
-void fill_bright(const ImageView& image, const Window& window, std::uint8_t lo, std::uint8_t hi,
-                 const Thresholds& thresholds, int y_first, int y_end, Bitmap& bitmap) {
-  const Beyond<true> beyond{thresholds};
-  if (hi == 255) {
-    fill(image, window, beyond, thresholds.rows_ahead, y_first, y_end, bitmap);
-  } else {
-    fill(image, window, Both{beyond, between(lo, hi)}, thresholds.rows_ahead, y_first, y_end,
-         bitmap);
-  }
-}
-
-void fill_dark(const ImageView& image, const Window& window, std::uint8_t lo, std::uint8_t hi,
-               const Thresholds& thresholds, int y_first, int y_end, Bitmap& bitmap) {
-  const Beyond<false> beyond{thresholds};
-  if (lo == 0) {
-    fill(image, window, beyond, thresholds.rows_ahead, y_first, y_end, bitmap);
-  } else {
-    fill(image, window, Both{beyond, between(lo, hi)}, thresholds.rows_ahead, y_first, y_end,
-         bitmap);
+    fill(image, window, between(lo, hi), y_first, y_end, bitmap);
   }
 }
 
@@ -183,20 +122,12 @@ HWY_AFTER_NAMESPACE();
 namespace dottrack::image {
 
 HWY_EXPORT(fill_rows);
-HWY_EXPORT(fill_bright);
-HWY_EXPORT(fill_dark);
 
-void fill_band_rows(const ImageView& image, const Window& window, const Band& band,
-                    const Thresholds& thresholds, int y_first, int y_end, Bitmap& bitmap) {
+void fill_band_rows(const ImageView& image, const Window& window, const Band& band, int y_first,
+                    int y_end, Bitmap& bitmap) {
   const auto lo = static_cast<std::uint8_t>(std::clamp(band.intensity_min_dn, 0, 255));
   const auto hi = static_cast<std::uint8_t>(std::clamp(band.intensity_max_dn, 0, 255));
-  if (thresholds.data == nullptr) {
-    HWY_DYNAMIC_DISPATCH(fill_rows)(image, window, lo, hi, y_first, y_end, bitmap);
-  } else if (band.polarity == core::Polarity::bright) {
-    HWY_DYNAMIC_DISPATCH(fill_bright)(image, window, lo, hi, thresholds, y_first, y_end, bitmap);
-  } else {
-    HWY_DYNAMIC_DISPATCH(fill_dark)(image, window, lo, hi, thresholds, y_first, y_end, bitmap);
-  }
+  HWY_DYNAMIC_DISPATCH(fill_rows)(image, window, lo, hi, y_first, y_end, bitmap);
 }
 
 }  // namespace dottrack::image

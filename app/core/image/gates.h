@@ -31,19 +31,22 @@ class SizeBounds {
   std::int64_t min_diagonal_squared_;
 };
 
-// By the area and the i-th moments.
+// By the area and the i-th moments. Which of the bounds a component misses cannot be predicted, so
+// all are looked at without a branch.
 inline bool passes_size(const RegionGate& gate, int area_px, const Moments& moments,
                         std::size_t i) {
-  return area_px >= gate.min_area_px && moments.semi_major[i] >= gate.semi_major_min_px &&
-         moments.semi_major[i] <= gate.semi_major_max_px;
+  const bool is_large_enough =
+      (area_px >= gate.min_area_px) & (moments.semi_major[i] >= gate.semi_major_min_px);
+  return is_large_enough & (moments.semi_major[i] <= gate.semi_major_max_px);
 }
 
 inline bool passes_shape(const RegionGate& gate, const Moments& moments, std::size_t i) {
-  return moments.semi_minor[i] >= gate.min_axis_ratio * moments.semi_major[i] &&
-         moments.fill[i] >= gate.min_fill &&
-         (1.0 - moments.fill[i]) * moments.semi_minor[i] <= gate.max_lack_px &&
-         moments.box_misfit[i] <=
-             gate.max_box_misfit_px + gate.max_box_misfit_part * moments.semi_major[i];
+  const bool is_round = moments.semi_minor[i] >= gate.min_axis_ratio * moments.semi_major[i];
+  const bool is_full = moments.fill[i] >= gate.min_fill;
+  const bool lacks_little = (1.0 - moments.fill[i]) * moments.semi_minor[i] <= gate.max_lack_px;
+  const bool fits_box = moments.box_misfit[i] <=
+                        gate.max_box_misfit_px + gate.max_box_misfit_part * moments.semi_major[i];
+  return is_round & is_full & lacks_little & fits_box;
 }
 
 }  // namespace dottrack::image

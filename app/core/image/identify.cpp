@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <limits>
 
 #include "app/core/image/band_bitmap.h"
@@ -59,8 +58,8 @@ constexpr PixelKey kNever = std::numeric_limits<PixelKey>::max();
 Candidate candidate_of(const SmallComponent& small) {
   const auto x_max = static_cast<std::int16_t>(small.x_min + small.width_px - 1);
   const auto y_max = static_cast<std::int16_t>(small.y_min + small.height_px - 1);
-  return {{0, Components::kEnd, Components::kEnd, std::popcount(small.bits), small.x_min, x_max,
-           small.y_min, y_max},
+  return {{0, Components::kEnd, Components::kEnd, small.area_px, small.x_min, x_max, small.y_min,
+           y_max},
           small.bits};
 }
 
@@ -79,6 +78,8 @@ struct Identifier::Memory {
     std::size_t large = 0;
   };
 
+  int fill_rows(const Search& search, int y, int y_end);
+  LinesAhead lines_after(const Search& search, int y) const;
   void find_components(const Search& search);
   IdentifyCounts pick_regions(const Search& search, const RegionGate& gate, Regions& regions);
   std::size_t next_batch(const SizeBounds& bounds, NextComponents& next, IdentifyCounts& counts);
@@ -100,25 +101,33 @@ std::size_t Identifier::footprint_bytes() const {
   return sizeof(*this) + sizeof(Memory);
 }
 
+// Those before row y_end of the window, or a few more; returns how many are filled.
+int Identifier::Memory::fill_rows(const Search& search, int y, int y_end) {
+  if (search.has_background()) return background.fill(y_end, bitmap);
+  fill_band_rows(search.image, search.window, search.band, y, y_end, bitmap);
+  return y_end;
+}
+
+// What the next rows to be filled need, but for what the present ones have sent for.
+LinesAhead Identifier::Memory::lines_after(const Search& search, int y) const {
+  const int from = search.has_background() ? background.next_row_px() : search.window.y_min + y + 2;
+  const int rows = LocalBackground::kRowsAtATime - (search.has_background() ? 0 : 2);
+  return {search.image, from, from + rows};
+}
+
 // A few rows at a time: while something is sought in them, the next ones come from memory. Small
 // components first, then the runs that are left; where there is no room for a box, all are runs.
 void Identifier::Memory::find_components(const Search& search) {
-  constexpr int kRowsAtATime = LocalBackground::kRowsAtATime;
   constexpr int kSide = SmallComponent::kSide_px;
   const int height = search.height_px();
   const bool has_room = std::min(search.width_px(), height) >= kSide;
   bitmap.reshape(search.width_px(), height);
   small.clear();
   if (search.has_background()) background.start(search.image, search.window, search.band);
-  const Thresholds thresholds = thresholds_of(search);
-  for (int y = 0; y < height; y += kRowsAtATime) {
-    const int y_end = std::min(y + kRowsAtATime, height);
-    if (search.has_background()) background.extend(y_end);
-    fill_band_rows(search.image, search.window, search.band, thresholds, y, y_end, bitmap);
+  for (int y = 0; y < height;) {
+    y = fill_rows(search, y, std::min(y + LocalBackground::kRowsAtATime, height));
     if (!has_room) continue;
-    const int y_next = search.window.y_min + y_end;
-    small.take(bitmap, y_end < height ? y_end - kSide : height,
-               LinesAhead(search.image, y_next + 2, y_next + kRowsAtATime));
+    small.take(bitmap, y < height ? y - kSide : height, lines_after(search, y));
   }
   if (has_room) small.finish(bitmap);
   runs.scan(bitmap, has_room ? small.groups_left() : bitmap.occupied());

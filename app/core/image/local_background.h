@@ -6,21 +6,25 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "app/core/image/band_strip.h"
+#include "app/core/image/bitmap.h"
 #include "app/core/image/identify.h"
 #include "app/core/image/tile_rows.h"
 #include "hal/base/image_view.h"
 
 namespace dottrack::image {
 
-// Of each pixel of the searched window: bright pixels must be above it, dark ones below.
+// Of each pixel of the searched window that is in band: bright pixels are above it, dark ones
+// below. Where no pixel is, it may be anything.
 struct Thresholds {
   const std::uint8_t* data = nullptr;  // none where there is no local background
   std::ptrdiff_t stride = 0;
   int rows_above = 0;  // of pixels, between the first row of thresholds and the window
-  int rows_ahead = 0;  // so far below a row, the image is looked at next
 
-  // Two rows of pixels share one. It can be read for 64 bytes before and after.
-  const std::uint8_t* row(int y) const { return data + ((rows_above + y) / 2) * stride; }
+  // It can be read for 64 bytes before and after.
+  const std::uint8_t* row(int y) const {
+    return data + ((rows_above + y) / kRowsPerThreshold) * stride;
+  }
 };
 
 // The image is divided into tiles of 8 x 8 pixels from its first pixel on; those at its right and
@@ -44,8 +48,12 @@ class LocalBackground {
 
   // The window lies inside the image; min_contrast_dn of the band is at least 1.
   void start(const ImageView& image, const Window& window, const Band& band);
-  // Makes the thresholds of the window's rows before y_end, from where it was; best kRowsAtATime.
-  void extend(int y_end);
+  // Fills the rows of the bitmap before y_end, from where it was, and makes their thresholds; best
+  // kRowsAtATime. The bitmap is as large as the window. Returns how many rows are filled: there may
+  // be some more. No byte beyond the end of the image's rows is read.
+  int fill(int y_end, Bitmap& bitmap);
+  // The first row of the image that was not looked at yet; may be behind the last.
+  int next_row_px() const { return (middle_ + reach_ + 1) * kTile_px; }
 
   const Thresholds& thresholds() const { return thresholds_; }
 
@@ -57,17 +65,29 @@ class LocalBackground {
   static constexpr std::size_t kRing = 32;  // of rows of tiles: more than any box has
   static constexpr std::size_t kStretched_px = kTiles * kTile_px;
   static constexpr std::ptrdiff_t kStride = core::kMaxImageWidth + 2 * kPad_px;
-  static constexpr std::size_t kRows = core::kMaxImageHeight / 2 + 2 * kRowsPerTile;
+  static constexpr std::size_t kRowsPerStrip = kStripRows / kRowsPerThreshold;
+  static constexpr std::size_t kRows =
+      core::kMaxImageHeight / kRowsPerThreshold + 2 * kRowsPerStrip;
   static_assert(kRing > 2 * kMaxReach + 1);
 
   using TileSums = std::array<std::uint16_t, kTiles>;
+  static constexpr std::size_t kPeakRows =
+      kMaxReach + 2;  // from the boxes' middle to the last seen
+  using Peaks = std::array<std::uint8_t, core::kMaxImageWidth + kPad_px>;
+  struct TileRowPeaks {
+    Peaks upper;
+    Peaks lower;
+  };
 
   int last_tile_row() const { return (image_.height_px - 1) / kTile_px; }
   const std::uint16_t* tiles_of(int row) const;
+  TileRowPeaks& peaks_of(int row);
+  void look_at_tiles(int row);
   void slide_boxes(int added, int dropped);
   void start_boxes(int row);
   void count_pixels();
   void stretch_means(std::size_t to);
+  void fill_strip_of(std::size_t upper, Bitmap& bitmap);
 
   ImageView image_;
   Window window_;
@@ -85,6 +105,7 @@ class LocalBackground {
   int rows_px_ = 0;  // in them
   Thresholds thresholds_;
   std::array<TileSums, kRing> tile_sums_{};
+  std::array<TileRowPeaks, kPeakRows> peaks_{};
   TileSums nothing_{};  // a row of tiles outside the image
   // Item i belongs to column first_ - reach_ + i of tiles; zero outside the image.
   std::array<std::int32_t, kTiles> column_sums_{};
@@ -92,8 +113,9 @@ class LocalBackground {
   std::array<std::int32_t, kTiles> brightest_{};
   std::array<float, kTiles> per_count_{};
   std::array<std::uint8_t, kTiles> means_{};
-  // Stretched means of two rows of tiles, the lower of which is the last that was made.
-  std::array<std::array<std::uint8_t, kStretched_px>, 2> stretched_{};
+  // Stretched means of two rows of tiles, the lower of which is the last that was made. A word can
+  // be read before them.
+  std::array<std::array<std::uint8_t, kPad_px + kStretched_px>, 2> stretched_{};
   std::size_t lower_ = 0;
   std::array<std::uint8_t, kRows* static_cast<std::size_t>(kStride)> values_{};
 };

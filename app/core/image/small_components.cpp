@@ -104,6 +104,8 @@ class Followed {
       next->y_min = static_cast<std::int16_t>(dottrack::image::row(first));
       next->width_px = static_cast<std::uint8_t>(columns.width[i]);
       next->height_px = static_cast<std::uint8_t>(columns.height[i]);
+      // Counted here, where it is one instruction.
+      next->area_px = static_cast<std::uint8_t>(std::popcount(next->bits));
       next += columns.taken[i] & 1U;
     }
     return static_cast<std::size_t>(next - to);

@@ -22,6 +22,7 @@ struct SmallComponent {
   std::int16_t y_min;
   std::uint8_t width_px;  // of the bounding box
   std::uint8_t height_px;
+  std::uint8_t area_px;
 };
 
 // Of these components every row is one run: one with a gap in a row is left in the bitmap, as is a

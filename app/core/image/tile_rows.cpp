@@ -1,12 +1,15 @@
 #include "app/core/image/tile_rows.h"
 
 #include <algorithm>
+#include <cstring>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "app/core/image/tile_rows.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h, by its rules.
 #include <hwy/highway.h>
+
+#include "app/core/image/eighths-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace dottrack::image {
@@ -25,41 +28,71 @@ HWY_INLINE std::uint16_t sum_tile(const ImageView& pixels, int x) {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Of whole rows of tiles, 64 pixels at a time; returns where it ended.
-HWY_INLINE int sum_whole_tiles(const ImageView& pixels, std::uint16_t* sums) {
-  const hn::CappedTag<std::uint8_t, 32> bytes;
-  const hn::RepartitionToWide<hn::RepartitionToWide<hn::RepartitionToWide<decltype(bytes)>>> eights;
+constexpr int kLine_px = 64;
+
+// As many whole tiles as some vectors hold columns.
+template <bool kBright, int kVectors, class D>
+HWY_INLINE void sum_tiles_in(D bytes, const ImageView& pixels, int x, std::uint16_t* sums,
+                             const TilePeaks& peaks) {
+  constexpr int kStep = static_cast<int>(MaxLanes(D()));
+  const hn::Repartition<std::uint64_t, D> eights;
   const hn::Rebind<std::uint16_t, decltype(eights)> narrow;
-  constexpr int kStep = static_cast<int>(MaxLanes(bytes));
-  const int x_end = pixels.width_px / 64 * 64;
-  for (int x = 0; x < x_end; x += 64) {
-    const std::uint8_t* row = pixels.data + x;
-    hn::Vec<decltype(eights)> sum[64 / kStep];
+  const std::uint8_t* row = pixels.data + x;
+  hn::Vec<decltype(eights)> sum[std::size_t{kVectors}];
+  for (auto& s : sum) s = hn::Zero(eights);
+  for (std::uint8_t* const to : {peaks.upper + x, peaks.lower + x}) {
+    hn::Vec<D> furthest[std::size_t{kVectors}];
+    for (auto& f : furthest) f = hn::Set(bytes, kBright ? 0 : 255);
 #pragma GCC unroll 4
-    for (auto& s : sum) s = hn::Zero(eights);
-#pragma GCC unroll 8
-    for (int y = 0; y < kTile_px; ++y) {
+    for (int y = 0; y < kTile_px / 2; ++y) {
 #pragma GCC unroll 4
-      for (int i = 0; i < 64 / kStep; ++i) {
-        sum[i] = hn::Add(sum[i], hn::SumsOf8(hn::LoadU(bytes, row + i * kStep)));
+      for (int i = 0; i < kVectors; ++i) {
+        const auto v = hn::LoadU(bytes, row + i * kStep);
+        sum[i] = hn::Add(sum[i], hn::SumsOf8(v));
+        furthest[i] = kBright ? hn::Max(furthest[i], v) : hn::Min(furthest[i], v);
       }
       row += pixels.stride_bytes;
     }
-#pragma GCC unroll 4
-    for (int i = 0; i < 64 / kStep; ++i) {
-      hn::StoreU(hn::TruncateTo(narrow, sum[i]), narrow, sums + (x + i * kStep) / kTile_px);
+    for (int i = 0; i < kVectors; ++i) {
+      hn::StoreU(kBright ? furthest[i] : hn::Not(furthest[i]), bytes, to + i * kStep);
     }
   }
-  return x_end;
+  for (int i = 0; i < kVectors; ++i) {
+    hn::StoreU(hn::TruncateTo(narrow, sum[i]), narrow, sums + (x + i * kStep) / kTile_px);
+  }
+}
+
+// Of whole rows of tiles; returns where it ended.
+template <bool kBright>
+HWY_INLINE int sum_whole_tiles(const ImageView& pixels, std::uint16_t* sums,
+                               const TilePeaks& peaks) {
+  const hn::CappedTag<std::uint8_t, kLine_px / 2> bytes;
+  const hn::FixedTag<std::uint8_t, kTile_px> tile;
+  constexpr int kVectors = kLine_px / static_cast<int>(MaxLanes(bytes));
+  int x = 0;
+  for (; x + kLine_px <= pixels.width_px; x += kLine_px) {
+    sum_tiles_in<kBright, kVectors>(bytes, pixels, x, sums, peaks);
+  }
+  for (; x + kTile_px <= pixels.width_px; x += kTile_px) {
+    sum_tiles_in<kBright, 1>(tile, pixels, x, sums, peaks);
+  }
+  return x;
 }
 
 #endif
 
-void sum_row(const ImageView& pixels, std::uint16_t* sums) {
+void sum_row(const ImageView& pixels, [[maybe_unused]] Flip flip, std::uint16_t* sums,
+             const TilePeaks& peaks) {
   int x = 0;
 #if HWY_TARGET != HWY_SCALAR
-  if (pixels.height_px == kTile_px) x = sum_whole_tiles(pixels, sums);
+  if (pixels.height_px == kTile_px) {
+    x = flip == 0 ? sum_whole_tiles<true>(pixels, sums, peaks)
+                  : sum_whole_tiles<false>(pixels, sums, peaks);
+  }
 #endif
+  const auto rest_px = static_cast<std::size_t>(pixels.width_px - x);
+  std::memset(peaks.upper + x, 255, rest_px);
+  std::memset(peaks.lower + x, 255, rest_px);
   for (; x < pixels.width_px; x += kTile_px) sums[x / kTile_px] = sum_tile(pixels, x);
 }
 
@@ -101,22 +134,6 @@ void means_of(const TileBoxes& boxes, const RelativeContrast& contrast, int n,
   }
 }
 
-// One, three, five and seven eighths of the way from a to b, each average rounded up.
-template <class D, class V = hn::Vec<D>>
-struct Eighths {
-  HWY_INLINE Eighths(V a, V b) {
-    const V middle = hn::AverageRound(a, b);
-    const V quarter = hn::AverageRound(a, middle);
-    const V three_quarters = hn::AverageRound(middle, b);
-    one = hn::AverageRound(a, quarter);
-    three = hn::AverageRound(quarter, middle);
-    five = hn::AverageRound(middle, three_quarters);
-    seven = hn::AverageRound(three_quarters, b);
-  }
-
-  V one, three, five, seven;
-};
-
 // Of the complements, so that averages are rounded down: those between rows are rounded up, and
 // together they favour neither.
 void stretch_row(const std::uint8_t* means, int n, std::uint8_t* row) {
@@ -135,26 +152,6 @@ void stretch_row(const std::uint8_t* means, int n, std::uint8_t* row) {
   }
 }
 
-void make_thresholds(const std::uint8_t* upper, const std::uint8_t* lower, int n,
-                     const Needed& needed, std::uint8_t* thresholds, std::ptrdiff_t stride) {
-  const hn::CappedTag<std::uint8_t, 64> d;
-  constexpr int kStep = static_cast<int>(MaxLanes(d));
-  const auto over = hn::Set(d, needed.over);
-  const auto floor = hn::Set(d, needed.floor);
-  const auto flip = hn::Set(d, needed.flip);
-  for (int i = 0; i < n; i += kStep) {
-    const Eighths<decltype(d)> at(hn::LoadU(d, upper + i), hn::LoadU(d, lower + i));
-    const auto put = [&](auto background, std::ptrdiff_t row) HWY_ATTR {
-      const auto threshold = hn::Max(hn::SaturatedAdd(background, over), floor);
-      hn::StoreU(hn::Xor(threshold, flip), d, thresholds + row * stride + i);
-    };
-    put(at.one, 0);
-    put(at.three, 1);
-    put(at.five, 2);
-    put(at.seven, 3);
-  }
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace dottrack::image
 HWY_AFTER_NAMESPACE();
@@ -166,10 +163,9 @@ HWY_EXPORT(sum_row);
 HWY_EXPORT(slide);
 HWY_EXPORT(means_of);
 HWY_EXPORT(stretch_row);
-HWY_EXPORT(make_thresholds);
 
-void sum_tiles(const ImageView& pixels, std::uint16_t* sums) {
-  HWY_DYNAMIC_DISPATCH(sum_row)(pixels, sums);
+void sum_tiles(const ImageView& pixels, Flip flip, std::uint16_t* sums, const TilePeaks& peaks) {
+  HWY_DYNAMIC_DISPATCH(sum_row)(pixels, flip, sums, peaks);
 }
 
 void slide_tiles(const std::uint16_t* added, const std::uint16_t* dropped, int n,
@@ -184,11 +180,6 @@ void mean_of_boxes(const TileBoxes& boxes, const RelativeContrast& contrast, int
 
 void stretch(const std::uint8_t* means, int n, std::uint8_t* row) {
   HWY_DYNAMIC_DISPATCH(stretch_row)(means, n, row);
-}
-
-void thresholds_between(const std::uint8_t* upper, const std::uint8_t* lower, int n,
-                        const Needed& needed, std::uint8_t* thresholds, std::ptrdiff_t stride) {
-  HWY_DYNAMIC_DISPATCH(make_thresholds)(upper, lower, n, needed, thresholds, stride);
 }
 
 }  // namespace dottrack::image

@@ -1,7 +1,6 @@
 #pragma once
 // The steps from a row of tiles to the thresholds of its pixels, many tiles or pixels at a time.
 
-#include <cstddef>
 #include <cstdint>
 
 #include "hal/base/image_view.h"
@@ -9,14 +8,21 @@
 namespace dottrack::image {
 
 inline constexpr int kTile_px = 8;
-inline constexpr int kRowsPerTile = 4;  // of thresholds: two rows of pixels share one
 
 // 0xFF turns a pixel of a dark dot into one of a bright dot: value ^ flip.
 using Flip = std::uint8_t;
 
-// sums[i] = the sum of all pixels of tile i. `pixels` is one row of tiles: its height is at most
-// kTile_px; its last tile may be narrower.
-void sum_tiles(const ImageView& pixels, std::uint16_t* sums);
+// Of a row of tiles, the furthest value of each column of pixels towards the polarity, flipped for
+// dark dots, in the upper and in the lower half of the tiles. Where a tile is cut off by the
+// image's edge they are 255: anything might be there.
+struct TilePeaks {
+  std::uint8_t* upper;
+  std::uint8_t* lower;
+};
+
+// sums[i] = the sum of all pixels of tile i, and the peaks of its columns. `pixels` is one row of
+// tiles: its height is at most kTile_px; its last tile may be narrower.
+void sum_tiles(const ImageView& pixels, Flip flip, std::uint16_t* sums, const TilePeaks& peaks);
 
 // sums[i] += added[i] - dropped[i] for n tiles.
 void slide_tiles(const std::uint16_t* added, const std::uint16_t* dropped, int n,
@@ -47,16 +53,5 @@ void mean_of_boxes(const TileBoxes& boxes, const RelativeContrast& contrast, int
 // one, three, five and seven eighths of the way from means[i] to means[i + 1], two pixels each, for
 // i < n. May write up to 15 tiles beyond the last.
 void stretch(const std::uint8_t* means, int n, std::uint8_t* row);
-
-struct Needed {
-  std::uint8_t over;   // more than this above the background
-  std::uint8_t floor;  // and more than this
-  Flip flip;
-};
-
-// kRowsPerTile rows of n thresholds, one, three, five and seven eighths of the way between the
-// stretched means of two rows of tiles. May write up to 63 beyond the last.
-void thresholds_between(const std::uint8_t* upper, const std::uint8_t* lower, int n,
-                        const Needed& needed, std::uint8_t* thresholds, std::ptrdiff_t stride);
 
 }  // namespace dottrack::image

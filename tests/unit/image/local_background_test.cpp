@@ -7,7 +7,7 @@
 #include <cmath>
 #include <memory>
 
-#include "app/core/image/band_bitmap.h"
+#include "app/core/image/bitmap.h"
 #include "tests/unit/image/pictures.h"
 #include "tests/unit/image/plain_background.h"
 #include "tests/unit/image/plain_identify.h"
@@ -22,11 +22,13 @@ class LocalBackgroundTest : public testing::Test {
     const int height = window.y_max - window.y_min + 1;
     bitmap_->reshape(window.x_max - window.x_min + 1, height);
     background_->start(picture.view(), window, band);
+    int filled = 0;
     for (int y = 0; y < height; y += 7) {
       const int y_end = std::min(y + 7, height);
-      background_->extend(y_end);
-      fill_band_rows(picture.view(), window, band, background_->thresholds(), y, y_end, *bitmap_);
+      filled = background_->fill(y_end, *bitmap_);
+      ASSERT_GE(filled, y_end);
     }
+    ASSERT_EQ(filled, height);
     const PlainBackground plain(picture, band);
     for (int y = window.y_min; y <= window.y_max && !HasFatalFailure(); ++y) {
       for (int x = window.x_min; x <= window.x_max; ++x) check(picture, window, band, plain, x, y);
