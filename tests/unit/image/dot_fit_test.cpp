@@ -276,8 +276,7 @@ TEST_F(DotFitTest, RecognisesHiddenDots) {
       count(fit_dot(picture.view(), *region, &expected), ellipse.centre, counts);
     }
     EXPECT_GT(counts.biased, 700);
-    EXPECT_GE(counts.recognised, (diameter < 8.0 ? 0.97 : 0.99) * counts.biased)
-        << diameter << " px: " << counts.biased;
+    EXPECT_GE(counts.recognised, 0.99 * counts.biased) << diameter << " px: " << counts.biased;
   }
 }
 
