@@ -58,6 +58,10 @@ std::string can_toml(const CanModel& can) {
   return text;
 }
 
+// Surveyed exactly, but shadows and lamps light a dot unevenly: over the drives the middle of a
+// dot's light is off by this much.
+constexpr double kDotSigma_m = 0.00025;
+
 // The cameras show a new setting in the second frame after it was made.
 constexpr std::string_view kLightToml = "\n[light]\ncontrol = true\ndelay_ticks = 2\n";
 
@@ -83,8 +87,9 @@ std::string rig_toml(const Scene& scene, std::span<const SimCamera> models) {
     if (scene.light_control) text += exposure_toml(camera);
   }
   text += fmt::format(
-      "\n[target]\nname = \"rover\"\ndots = \"target.csv\"\nupright = true\nmax_step_m = {:.3f}\n",
-      dots.max_step_m);
+      "\n[target]\nname = \"rover\"\ndots = \"target.csv\"\nupright = true\n"
+      "dot_sigma_m = {:.5f}\nmax_step_m = {:.3f}\n",
+      kDotSigma_m, dots.max_step_m);
   if (scene.light_control) text += kLightToml;
   return text + can_toml(scene.can);
 }

@@ -355,7 +355,8 @@ INSTANTIATE_TEST_SUITE_P(All, BuiltInScenario,
                          testing::Values("drive", "clutter", "people", "lights", "sun_blooming",
                                          "ramp", "crane_lines", "survey_grid", "occlusion",
                                          "kidnap", "two_views", "camera_faults", "three_dots",
-                                         "eight_dots", "empty", "calibration"));
+                                         "eight_dots", "empty", "calibration", "iris_drift",
+                                         "iris_stuck"));
 
 TEST(BuiltInScenarios, TwoViewsIsAPlaceThatTwoCamerasSee) {
   const Scene scene = *load_scenario(*find_scenario("two_views"));

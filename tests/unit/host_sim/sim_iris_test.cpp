@@ -76,5 +76,35 @@ TEST_F(SimIrises, WhatCannotBeIsRefused) {
   EXPECT_TRUE(iris_.state(0).automatic);
 }
 
+TEST_F(SimIrises, StuckBladesStayWhileTheMotorGoesOn) {
+  SimIris iris(2, {.opening = 0.8, .backlash = 0.0}, clock_,
+               {{.camera = 1, .kind = IrisFaultKind::stuck, .from_s = 1.0}});
+  for (const std::size_t camera : {0U, 1U}) ASSERT_TRUE(iris.move_to(camera, 0.1));
+  clock_.jump_to(at_s(2.0));
+  EXPECT_NEAR(iris.opening(0, at_s(2.0)), 0.1, 1e-9);
+  EXPECT_NEAR(iris.opening(1, at_s(2.0)), 0.3, 1e-9) << "where it was when it stuck";
+  EXPECT_NEAR(iris.state(1).opening, 0.1, 1e-9) << "the motor knows nothing of it";
+  ASSERT_TRUE(iris.move_to(1, 0.6));
+  clock_.jump_to(at_s(5.0));
+  EXPECT_NEAR(iris.opening(1, at_s(5.0)), 0.3, 1e-9);
+  EXPECT_NEAR(iris.state(1).opening, 0.6, 1e-9);
+  EXPECT_TRUE(iris.state(1).healthy);
+}
+
+TEST_F(SimIrises, ADeadOneDoesNotAnswer) {
+  SimIris iris(1, {}, clock_, {{.camera = 0, .kind = IrisFaultKind::dead, .from_s = 1.0}});
+  EXPECT_TRUE(iris.state(0).healthy);
+  clock_.jump_to(at_s(1.0));
+  EXPECT_FALSE(iris.state(0).healthy);
+}
+
+TEST_F(SimIrises, WearChangesTheLightAndNotWhatTheIrisSays) {
+  SimIris iris(1, {.opening = 0.5, .wear_per_s = 0.1}, clock_);
+  ASSERT_TRUE(iris.move_to(0, 0.5));
+  clock_.jump_to(at_s(2.0));
+  EXPECT_NEAR(iris.opening(0, at_s(2.0)), 0.6, 1e-9);
+  EXPECT_NEAR(iris.state(0).opening, 0.5, 1e-9);
+}
+
 }  // namespace
 }  // namespace dottrack::host_sim
