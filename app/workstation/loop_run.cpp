@@ -36,7 +36,7 @@ LoopRun::LoopRun(const config::RigConfig& config, LoopFiles files, LoopHardware 
       timer_(*files_.clock, Time{}, period_of(config_)),
       ring_(std::make_unique<telemetry::RecordRing>()),
       cycle_({hardware_.grabber, hardware_.iris, hardware_.can, tracker_, *files_.clock, stopwatch_,
-              *ring_, &light_},
+              *ring_, nullptr, nullptr, nullptr, nullptr, &light_},
              cycle::settings_for(config_.rig, period_of(config_),
                                  config::broadcast_settings(config_))),
       recorder_(*ring_),

@@ -93,6 +93,7 @@ void add_status(Object& object, const dottrack_pose& pose) {
       .add_word("state", dottrack_state_text(pose.state))
       .add_word("reason", dottrack_reason_text(pose.reason))
       .add_flag("valid", pose.valid)
+      .add_word("kind", dottrack_kind_text(pose.kind))
       .add_flag("out_of_range", pose.out_of_range)
       .add("capture_s", seconds_text(std::chrono::microseconds(pose.capture_us)))
       .add_known("age_s", age_s(pose).has_value(), age_s(pose).value_or(0.0))

@@ -61,6 +61,7 @@ void add_group_rows(std::vector<std::string>& lines, const TableContent& content
   lines.push_back(row("state", fmt::format("{}, {}", dottrack_state_text(pose.state),
                                            dottrack_reason_text(pose.reason))));
   add_pose_rows(lines, pose);
+  if (pose.valid) lines.push_back(row("  kind", dottrack_kind_text(pose.kind)));
   lines.push_back(row("quality", quality(pose)));
   lines.push_back(row("degraded", degraded_words(pose.degraded)));
   lines.push_back(row("cameras", fmt::format("used {}", camera_numbers(pose.cameras_used))));

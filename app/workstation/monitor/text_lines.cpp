@@ -19,6 +19,7 @@ std::string pose_text(const dottrack_pose& pose) {
     text += fmt::format("  {:.4f} {:.4f} {:.4f} m  rpy {:.3f} {:.3f} {:.3f} deg",
                         pose.position_m[0], pose.position_m[1], pose.position_m[2], angles.roll_deg,
                         angles.pitch_deg, angles.yaw_deg);
+    if (pose.kind != DOTTRACK_MEASURED) text += fmt::format("  {}", dottrack_kind_text(pose.kind));
   } else {
     text +=
         fmt::format("  {}", pose.out_of_range ? "out_of_range" : dottrack_reason_text(pose.reason));

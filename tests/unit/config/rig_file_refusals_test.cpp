@@ -47,11 +47,13 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Mistake{"AtTheTop", "[tracking]", "[trackin]",
                 "rig.toml:27: unknown key \"trackin\" in the rig file; "
-                "expected one of rig, camera, target, vehicle, tracking, can, trigger, lamp, loop, "
+                "expected one of rig, camera, target, vehicle, tracking, can, trigger, lamp, "
+                "light, loop, "
                 "recording"},
         Mistake{"BeforeTheFirstTable", "[rig]", "name = 1\n[rig]",
                 "rig.toml:1: unknown key \"name\" in the rig file; "
-                "expected one of rig, camera, target, vehicle, tracking, can, trigger, lamp, loop, "
+                "expected one of rig, camera, target, vehicle, tracking, can, trigger, lamp, "
+                "light, loop, "
                 "recording"},
         Mistake{"InRig", "frame_rate_hz", "fps",
                 "rig.toml:3: unknown key \"fps\" in [rig]; expected one of name, frame_rate_hz"},
