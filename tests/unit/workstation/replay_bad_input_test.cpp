@@ -146,14 +146,25 @@ TEST_F(ReplayBadInput, NoiseHasNoLock) {
   EXPECT_THAT(reasons_without_a_lock(), Each(Not("none")));
 }
 
-TEST_F(ReplayBadInput, ALostTargetIsSaidToBeLostAndFoundAgain) {
+// For six ticks of 20 ms the filter coasts; for 30 it does not.
+TEST_F(ReplayBadInput, ATargetThatIsHiddenForAMomentIsNotLost) {
   test::write_drive(scene_, frames_, 12);
   for (std::uint64_t tick = 3; tick < 9; ++tick) put_everywhere(tick, flat_image(400, 300, 40));
   EXPECT_EQ(replay().status, 0);
   EXPECT_EQ(report_of(out_, "tracking_ticks"), "6");
+  EXPECT_EQ(report_of(out_, "reacquisitions"), "0");
+  EXPECT_EQ(column_of(out_, "state").at(8), "tracking");
+  EXPECT_EQ(column_of(out_, "filter").at(8), "coasting");
+}
+
+TEST_F(ReplayBadInput, ALostTargetIsSaidToBeLostAndFoundAgain) {
+  test::write_drive(scene_, frames_, 36);
+  for (std::uint64_t tick = 3; tick < 33; ++tick) put_everywhere(tick, flat_image(400, 300, 40));
+  EXPECT_EQ(replay().status, 0);
+  EXPECT_EQ(report_of(out_, "tracking_ticks"), "6");
   EXPECT_EQ(report_of(out_, "reacquisitions"), "1");
-  EXPECT_EQ(column_of(out_, "state").at(8), "acquiring");
-  EXPECT_EQ(column_of(out_, "state").at(9), "tracking");
+  EXPECT_EQ(column_of(out_, "state").at(32), "acquiring");
+  EXPECT_EQ(column_of(out_, "state").at(33), "tracking");
 }
 
 TEST_F(ReplayBadInput, AFolderWithoutImagesIsRefused) {

@@ -90,7 +90,8 @@ TEST_F(Replay, TheSameImagesGiveTheSameBytes) {
     ++compared;
     EXPECT_TRUE(text_of(entry.path()) == text_of(out("two") / name)) << name;
   }
-  EXPECT_EQ(compared, 3 + 2 * 4);  // poses.tum, poses.csv, can.log and two pictures a camera
+  EXPECT_EQ(compared, 4 + 2 * 4);  // poses.tum, filtered.tum, poses.csv, can.log and two
+                                   // pictures a camera
 }
 
 TEST_F(Replay, RepeatShowsTheLastSetThatManyTimes) {
