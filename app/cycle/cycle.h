@@ -46,12 +46,12 @@ struct CycleParts {
   const rtos::Clock& clock;
   const rtos::Clock& stopwatch;
   telemetry::RecordRing& records;
+  // Only a unit has all of these.
+  telemetry::FrameRing* frames = nullptr;   // takes copies of the images
+  hal::OutputLine* lamp = nullptr;          // lit: tracking; blinking: looking for the target
+  rtos::Watchdog* watchdog = nullptr;       // kicked by every tick
+  Requests* requests = nullptr;             // takes what commands ask of others
   exposure::LightControl* light = nullptr;  // none: cameras and lenses are left as they are
-  // Only a unit has these.
-  telemetry::FrameRing* frames = nullptr;  // takes copies of the images
-  hal::OutputLine* lamp = nullptr;         // lit: tracking; blinking: looking for the target
-  rtos::Watchdog* watchdog = nullptr;      // kicked by every tick
-  Requests* requests = nullptr;            // takes what commands ask of others
 };
 
 // The same on the board and on a workstation: one call a wake-up. It allocates nothing, throws

@@ -114,11 +114,11 @@ void Unit::make_cycle(rtos::Watchdog* watchdog, const Continuity& before) {
                                    .clock = clock_,
                                    .stopwatch = clock_,
                                    .records = *records_,
-                                   .light = &light_,
                                    .frames = frames_.get(),
                                    .lamp = hardware.lamp.get(),
                                    .watchdog = watchdog,
-                                   .requests = &requests_},
+                                   .requests = &requests_,
+                                   .light = &light_},
                  settings);
 }
 
