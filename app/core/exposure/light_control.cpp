@@ -13,6 +13,7 @@ constexpr double kSaturatedParts = 0.02;  // of an image that is known for nothi
 constexpr double kToleranceOfLost = 1.3;
 constexpr double kToleranceOfUnseen = 1.6;
 constexpr double kToleranceOfImage = 2.0;
+constexpr double kDarkImage_dn = 8.0;  // below, its mean does not tell what an iris does
 constexpr int kSpreadAfter_ticks = 15;
 constexpr double kSpread = 3.0;
 constexpr int kPlaces = 3;
@@ -25,6 +26,7 @@ constexpr double kShort = 1.5;
 // Before it opens, the dots are not far above where they should be: what it lets in comes on top.
 constexpr double kHeadroom = 1.08;
 constexpr double kToleranceBeforeIris = 1.06;
+constexpr double kToleranceOfExercise = 1.4;  // the iris goes back by itself
 
 int rounded(double dn) {
   return static_cast<int>(dn + 0.5);
@@ -68,6 +70,7 @@ std::optional<Brightness> LightControl::brightness_of(const Camera& camera) cons
       reading.brightest.peak_dn >= kNearFullScale_dn || reading.saturated_share > kSaturatedDots;
   seen.image_dn = reading.image.mean_dn;
   if (needs_iris(camera, settings_)) seen.tolerance = kToleranceBeforeIris;
+  if (camera.iris.exercising()) seen.tolerance = kToleranceOfExercise;
   if (seen.saturated && reading.image.saturated_share < kSaturatedImage) {
     seen.level_dn = std::max(seen.level_dn, camera.dots_over_image * seen.image_dn);
   }
@@ -163,6 +166,22 @@ IrisWish LightControl::wish_of(const Camera& camera, const LightSettings& settin
   return is_short ? IrisWish::close : IrisWish::none;
 }
 
+IrisLight LightControl::iris_light(const Camera& camera,
+                                   const std::optional<Brightness>& seen) const {
+  const double product_s = camera.exposure.product_s();
+  if (!seen || camera.exposure.waiting() || !(product_s > 0.0)) return {};
+  IrisLight light;
+  light.steady = camera.exposure.content();
+  const ImageLight& image = camera.reading.image;
+  if (image.saturated_share < kSaturatedParts && image.mean_dn > kDarkImage_dn) {
+    light.image = image.mean_dn / product_s;
+  }
+  if (camera.reading.dots == 0 || seen->saturated) return light;
+  light.dots = seen->level_dn / product_s;
+  light.level = seen->level_dn / settings_.target_dn;
+  return light;
+}
+
 CameraOrders LightControl::decide(std::size_t index, const IrisView& iris) {
   Camera& camera = cameras_[index];
   if (!settings_.on) {
@@ -172,10 +191,8 @@ CameraOrders LightControl::decide(std::size_t index, const IrisView& iris) {
   const std::optional<Brightness> seen = brightness_of(camera);
   CameraOrders orders;
   orders.exposure = expose(index, seen);
-  const bool known = camera.reading.dots > 0 && seen && !seen->saturated &&
-                     camera.exposure.product_s() > 0.0 && !camera.exposure.waiting();
-  const double light = known ? seen->level_dn / camera.exposure.product_s() : 0.0;
-  orders.iris = camera.iris.step(iris, wish_of(camera, settings_), light, settings_.delay_ticks);
+  orders.iris = camera.iris.step(iris, wish_of(camera, settings_), iris_light(camera, seen),
+                                 settings_.delay_ticks);
   report(camera, iris);
   return orders;
 }

@@ -67,6 +67,7 @@ class LightControl {
   Duration longest_exposure(const Camera& camera) const;
   static bool needs_iris(const Camera& camera, const LightSettings& settings);
   static IrisWish wish_of(const Camera& camera, const LightSettings& settings);
+  IrisLight iris_light(const Camera& camera, const std::optional<Brightness>& seen) const;
   static LightState state_of(const Camera& camera, const LightSettings& settings);
   void remember(Camera& camera) const;
   void report(Camera& camera, const IrisView& iris) const;

@@ -184,6 +184,52 @@ TEST(LightControlClosedLoop, NamesAnIrisThatIsStuckAndNoOther) {
   }
 }
 
+// Exposure and gain do all that is needed: the iris has no reason to move but to be tried.
+int named_after(const Plant& plant, double factor) {
+  LitCamera camera(plant, settings());
+  watch(camera, 120);
+  camera.stick(true);
+  camera.set_light(factor * plant.light_dn_per_s);
+  for (int tick = 0; tick < 120; ++tick) {
+    camera.tick();
+    if (camera.light().state == LightState::iris_fault) return tick;
+  }
+  return -1;
+}
+
+TEST(LightControlClosedLoop, FindsAStuckIrisWhenTheLightChangesThoughExposureSuffices) {
+  int found = 0;
+  for (std::uint32_t seed = 1; seed <= kPlants / 4; ++seed) {
+    Plant plant = random_plant(seed);
+    plant.opening = Dice(seed + 30000).uniform(0.4, 0.9);
+    plant.light_dn_per_s = Dice(seed + 40000).factor(1.5e5, 4e5);
+    plant.speed_per_tick = 0.0167;  // half of the whole way in a second at 30 Hz
+    for (const double factor : {0.5, 1.8}) {
+      const int after = named_after(plant, factor);
+      ASSERT_GE(after, 0) << "plant " << seed << " light times " << factor;
+      EXPECT_LE(after, 60) << "plant " << seed << " light times " << factor;
+      ++found;
+    }
+  }
+  EXPECT_EQ(found, kPlants / 2);
+}
+
+TEST(LightControlClosedLoop, NamesNoSoundIrisThatItExercises) {
+  int moves = 0;
+  for (std::uint32_t seed = 1; seed <= kPlants; ++seed) {
+    Plant plant = random_plant(seed);
+    plant.opening = Dice(seed + 60000).uniform(0.4, 0.6);  // with wear, never fully open
+    plant.wear_per_tick = Dice(seed + 50000).uniform(-0.001, 0.001);
+    LitCamera camera(plant, settings());
+    for (int tick = 0; tick < 300; ++tick) {
+      camera.tick();
+      ASSERT_NE(camera.light().state, LightState::iris_fault) << "plant " << seed << " " << tick;
+    }
+    moves += camera.moves_ordered();
+  }
+  EXPECT_GT(moves, 3 * kPlants);
+}
+
 TEST(LightControlClosedLoop, SaysWhenNothingIsLeftToDo) {
   Plant plant;
   plant.light_dn_per_s = 800.0;

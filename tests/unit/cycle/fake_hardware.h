@@ -1,7 +1,9 @@
 #pragma once
 // Hardware that does what a test says and remembers what it was asked.
 
+#include <array>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "hal/can_bus.h"
@@ -20,6 +22,8 @@ class FakeGrabber final : public hal::FrameGrabber {
   Time deadline{};
   int triggers = 0;
   int releases = 0;
+  bool takes_exposures = false;
+  std::array<std::optional<hal::ExposureSettings>, kMaxCameras> exposures{};  // last asked for
 
  private:
   void do_trigger(Time now) override {
@@ -38,7 +42,10 @@ class FakeGrabber final : public hal::FrameGrabber {
     return set_;
   }
   void do_release() override { ++releases; }
-  bool do_set_exposure(std::size_t, const hal::ExposureSettings&) override { return false; }
+  bool do_set_exposure(std::size_t camera, const hal::ExposureSettings& settings) override {
+    exposures[camera] = settings;
+    return takes_exposures;
+  }
 
   hal::FrameSet set_;
   Time triggered_{};
@@ -46,18 +53,33 @@ class FakeGrabber final : public hal::FrameGrabber {
 
 class FakeIris final : public hal::Iris {
  public:
+  static constexpr double kAutomatic = 0.6;  // opening that the lens itself chose
   CameraSet broken;
   CameraSet released;
+  bool takes_moves = false;
+  std::array<int, kMaxCameras> moves{};
+  std::array<double, kMaxCameras> openings{};  // where it was last sent
 
  private:
-  bool do_move_to(std::size_t, double) override { return false; }
+  bool do_move_to(std::size_t camera, double opening) override {
+    ++moves[camera];
+    openings[camera] = opening;
+    if (takes_moves) overridden_.insert(camera);
+    return takes_moves;
+  }
   bool do_release_to_auto(std::size_t camera) override {
     released.insert(camera);
+    overridden_.erase(camera);
     return true;
   }
   hal::IrisState do_state(std::size_t camera) const override {
-    return {.healthy = !broken.contains(camera)};
+    const bool overridden = overridden_.contains(camera);
+    return {.opening = overridden ? openings[camera] : kAutomatic,
+            .automatic = !overridden,
+            .healthy = !broken.contains(camera)};
   }
+
+  CameraSet overridden_;
 };
 
 class FakeCan final : public hal::CanBus {
