@@ -97,16 +97,16 @@ struct LaneModel {
   Vector e_outside, e_inside;
 };
 
-// Of some pixels against the outline. Where none is on the blurred edge, p and w are nothing.
-struct Edge {
-  Vector e, p, z, w;
-  bool any;
+// Where some pixels are: from the centre, and z of them; the outline moves by h_per_m where u^T A u
+// does by 2.
+struct Place {
+  Vector x, y, z, h_per_m;
 };
 
 // With m = sqrt(u^T A u) a point is h (1 - m) inside the outline, h = m / |A u|. Blur moves a
 // curved edge inwards: the mean of m over a Gaussian about u is m + blur^2 Laplacian(m) / 2, with
 // Laplacian(m) = (trace A - 1 / h^2) / m.
-HWY_INLINE Edge edge_at(const LaneModel& model, Vector x, Vector y) {
+HWY_INLINE Place place_at(const LaneModel& model, Vector x, Vector y) {
   const Vector tiny = all(1e-4);  // the middle of the dot divides by nothing
   const Vector gx = hn::Add(hn::Mul(model.xx, x), hn::Mul(model.xy, y));
   const Vector gy = hn::Add(hn::Mul(model.xy, x), hn::Mul(model.yy, y));
@@ -118,6 +118,38 @@ HWY_INLINE Edge edge_at(const LaneModel& model, Vector x, Vector y) {
   const Vector h = hn::Sqrt(hn::Div(q_off, g2_off));
   const Vector m = hn::Sqrt(hn::Add(q, hn::Mul(model.blur2, hn::Sub(model.trace, per_h2))));
   const Vector z = hn::Mul(hn::Sub(h, hn::Mul(h, m)), model.per_blur);
+  return {x, y, z, hn::Div(h, m)};
+}
+
+// The places of some blocks. They are worked out before anything is summed: then many roots and
+// divisions are under way at once.
+class Places {
+ public:
+  static constexpr int kBlocks = 16;
+
+  HWY_INLINE void set(const DotPixels& pixels, const LaneModel& model, int first, int end) {
+    int block = 0;
+    for (int i = first; i < end; i += kBlock, ++block) {
+      const auto at = static_cast<std::size_t>(i);
+      const Vector x = hn::Sub(hn::LoadU(kLanes, pixels.x.data() + at), model.x);
+      const Vector y = hn::Sub(hn::LoadU(kLanes, pixels.y.data() + at), model.y);
+      of_[block] = place_at(model, x, y);
+    }
+  }
+  HWY_INLINE const Place& operator[](int block) const { return of_[block]; }
+
+ private:
+  Place of_[kBlocks];
+};
+
+// Of some pixels against the outline. Where none is on the blurred edge, p and w are nothing.
+struct Edge {
+  Vector e, p, z, w;
+  bool any;
+};
+
+HWY_INLINE Edge edge_at(const LaneModel& model, const Place& place) {
+  const Vector z = place.z;
   const auto near = hn::Lt(hn::Abs(z), all(kCut));
   if (hn::AllFalse(kLanes, near)) {
     const Vector none = hn::Zero(kLanes);
@@ -127,7 +159,7 @@ HWY_INLINE Edge edge_at(const LaneModel& model, Vector x, Vector y) {
   const Vector cut = hn::Min(hn::Max(z, all(-kCut)), all(kCut));
   const Vector z2 = hn::Mul(cut, cut);
   const Vector p = hn::IfThenElseZero(near, polynomial(z2, kDensity));
-  return {covered(cut, z2), p, cut, hn::Mul(p, hn::Div(h, m)), true};
+  return {covered(cut, z2), p, cut, hn::Mul(p, place.h_per_m), true};
 }
 
 template <std::size_t kTerms>
@@ -152,13 +184,14 @@ struct Compared {
   Edge edge;
 };
 
-HWY_INLINE Compared compare(const DotPixels& pixels, const LaneModel& model, int i) {
+HWY_INLINE Compared compare(const DotPixels& pixels, const LaneModel& model, const Place& place,
+                            int i) {
   const auto at = static_cast<std::size_t>(i);
   const Vector end = hn::Set(kLanes, static_cast<float>(pixels.count));
   const auto valid = hn::Lt(hn::Iota(kLanes, static_cast<float>(i)), end);
-  const Vector x = hn::Sub(hn::LoadU(kLanes, pixels.x.data() + at), model.x);
-  const Vector y = hn::Sub(hn::LoadU(kLanes, pixels.y.data() + at), model.y);
-  const Edge edge = edge_at(model, x, y);
+  const Vector x = place.x;
+  const Vector y = place.y;
+  const Edge edge = edge_at(model, place);
   const Vector plane =
       hn::Add(model.background, hn::Add(hn::Mul(model.per_x, x), hn::Mul(model.per_y, y)));
   const Vector expected = hn::Add(plane, hn::Mul(model.contrast, edge.e));
@@ -253,23 +286,52 @@ HWY_INLINE void total(const std::array<std::array<float, kBlock>, kTerms>& lanes
   }
 }
 
+// Calls add with every vector of pixels that begins at lane `part` of its block.
+template <class Add>
+HWY_INLINE void compare_all(const DotPixels& pixels, const LaneModel& model, int part, Add add) {
+  Places places;
+  const int last = pixels.count + part;
+  for (int first = part; first < last; first += Places::kBlocks * kBlock) {
+    const int end = std::min(first + Places::kBlocks * kBlock, last);
+    places.set(pixels, model, first, end);
+    int block = 0;
+    for (int i = first; i < end; i += kBlock) add(compare(pixels, model, places[block++], i));
+  }
+}
+
+struct AllSums {
+  HWY_INLINE void operator()(const Compared& at) const {
+    add_common(at, sums);
+    add_failing(at, sums);
+    if (!at.edge.any) return;
+    add_common_edge(at, sums);
+    add_failing_edge(at, sums);
+  }
+  LaneSums<ResidualSums::kTerms>& sums;
+};
+
 void sum_all(const DotPixels& pixels, const OutlineModel& of, ResidualSums& residuals) {
   const LaneModel model(of);
   std::array<std::array<float, kBlock>, ResidualSums::kTerms> lanes;
   for (int part = 0; part < kBlock; part += kStep) {
     LaneSums<ResidualSums::kTerms> sums;
-    for (int i = part; i < pixels.count + part; i += kBlock) {
-      const Compared at = compare(pixels, model, i);
-      add_common(at, sums);
-      add_failing(at, sums);
-      if (!at.edge.any) continue;
-      add_common_edge(at, sums);
-      add_failing_edge(at, sums);
-    }
+    compare_all(pixels, model, part, AllSums{sums});
     sums.store(part, lanes);
   }
   total(lanes, residuals.of.data());
 }
+
+struct BothSums {
+  HWY_INLINE void operator()(const Compared& at) const {
+    add_common(at, residuals);
+    add_derivatives(at, derivatives);
+    if (!at.edge.any) return;
+    add_common_edge(at, residuals);
+    add_derivatives_edge(at, derivatives);
+  }
+  LaneSums<ResidualSums::kCommon>& residuals;
+  LaneSums<DerivativeSums::kTerms>& derivatives;
+};
 
 void sum_both(const DotPixels& pixels, const OutlineModel& of, ResidualSums& residuals,
               DerivativeSums& derivatives) {
@@ -279,14 +341,7 @@ void sum_both(const DotPixels& pixels, const OutlineModel& of, ResidualSums& res
   for (int part = 0; part < kBlock; part += kStep) {
     LaneSums<ResidualSums::kCommon> sums;
     LaneSums<DerivativeSums::kTerms> derivative_sums;
-    for (int i = part; i < pixels.count + part; i += kBlock) {
-      const Compared at = compare(pixels, model, i);
-      add_common(at, sums);
-      add_derivatives(at, derivative_sums);
-      if (!at.edge.any) continue;
-      add_common_edge(at, sums);
-      add_derivatives_edge(at, derivative_sums);
-    }
+    compare_all(pixels, model, part, BothSums{sums, derivative_sums});
     sums.store(part, lanes);
     derivative_sums.store(part, derivative_lanes);
   }
