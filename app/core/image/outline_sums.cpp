@@ -53,11 +53,14 @@ bool list(const ImageView& patch, const PatchRows& rows, DotPixels& pixels) {
   return true;
 }
 
-// Up to |z| = 3, where the normal distribution is cut off: c0 + c1 u + ... to a part in 1e5.
+// Up to |z| = 3, where the normal distribution is cut off: c0 + c1 u + ... to a part in 1e5. By
+// halves, which wait less for each other than one term after the other.
 HWY_INLINE Vector polynomial(Vector u, const std::array<double, 8>& c) {
-  Vector sum = all(c[7]);
-  for (std::size_t i = 7; i-- > 0;) sum = hn::Add(hn::Mul(sum, u), all(c[i]));
-  return sum;
+  const Vector u2 = hn::Mul(u, u);
+  const auto pair = [&](std::size_t i) { return hn::Add(hn::Mul(all(c[i + 1]), u), all(c[i])); };
+  const Vector low = hn::Add(hn::Mul(pair(2), u2), pair(0));
+  const Vector high = hn::Add(hn::Mul(pair(6), u2), pair(4));
+  return hn::Add(hn::Mul(high, hn::Mul(u2, u2)), low);
 }
 constexpr double kCut = 3.0;
 constexpr std::array<double, 8> kDensity{
@@ -67,6 +70,11 @@ constexpr std::array<double, 8> kDensity{
 constexpr std::array<double, 8> kDistribution{
     0.4000143343979335,     -0.06663283670601068,    0.009946745304828211,   -0.0011547647840719126,
     0.00010262267418503329, -6.5766901837065124e-06, 2.6623358576476984e-07, -5.01002812545787e-09};
+
+// How much of a pixel is covered; |z| is at most kCut.
+HWY_INLINE Vector covered(Vector z, Vector z2) {
+  return hn::Add(all(0.5), hn::Mul(z, polynomial(z2, kDistribution)));
+}
 
 struct LaneModel {
   HWY_INLINE explicit LaneModel(const OutlineModel& model)
@@ -81,35 +89,77 @@ struct LaneModel {
         contrast(all(model.contrast_dn)),
         background(all(model.background_dn)),
         per_x(all(model.slope_dn.x())),
-        per_y(all(model.slope_dn.y())) {}
+        per_y(all(model.slope_dn.y())),
+        e_outside(covered(all(-kCut), hn::Mul(all(kCut), all(kCut)))),
+        e_inside(covered(all(kCut), hn::Mul(all(kCut), all(kCut)))) {}
 
   Vector x, y, xx, xy, yy, trace, blur2, per_blur, contrast, background, per_x, per_y;
+  Vector e_outside, e_inside;
 };
 
-// Of some pixels against the outline.
-struct Edge {
-  Vector e, p, z, w;
+// Where some pixels are: from the centre, and z of them; the outline moves by h_per_m where u^T A u
+// does by 2.
+struct Place {
+  Vector x, y, z, h_per_m;
 };
 
 // With m = sqrt(u^T A u) a point is h (1 - m) inside the outline, h = m / |A u|. Blur moves a
 // curved edge inwards: the mean of m over a Gaussian about u is m + blur^2 Laplacian(m) / 2, with
 // Laplacian(m) = (trace A - 1 / h^2) / m.
-HWY_INLINE Edge edge_at(const LaneModel& model, Vector x, Vector y) {
+HWY_INLINE Place place_at(const LaneModel& model, Vector x, Vector y) {
   const Vector tiny = all(1e-4);  // the middle of the dot divides by nothing
   const Vector gx = hn::Add(hn::Mul(model.xx, x), hn::Mul(model.xy, y));
   const Vector gy = hn::Add(hn::Mul(model.xy, x), hn::Mul(model.yy, y));
   const Vector q = hn::Add(hn::Mul(x, gx), hn::Mul(y, gy));
   const Vector g2 = hn::Add(hn::Mul(gx, gx), hn::Mul(gy, gy));
-  const Vector per_h2 = hn::Div(hn::Add(g2, hn::Mul(model.trace, all(0.5e-4))), hn::Add(q, tiny));
+  const Vector g2_off = hn::Add(g2, hn::Mul(model.trace, all(0.5e-4)));
+  const Vector q_off = hn::Add(q, tiny);
+  const Vector per_h2 = hn::Div(g2_off, q_off);
+  const Vector h = hn::Sqrt(hn::Div(q_off, g2_off));
   const Vector m = hn::Sqrt(hn::Add(q, hn::Mul(model.blur2, hn::Sub(model.trace, per_h2))));
-  const Vector h_per_m = hn::Div(all(1.0), hn::Mul(hn::Sqrt(per_h2), m));
-  const Vector h = hn::Mul(h_per_m, m);
   const Vector z = hn::Mul(hn::Sub(h, hn::Mul(h, m)), model.per_blur);
+  return {x, y, z, hn::Div(h, m)};
+}
+
+// The places of some blocks. They are worked out before anything is summed: then many roots and
+// divisions are under way at once.
+class Places {
+ public:
+  static constexpr int kBlocks = 16;
+
+  HWY_INLINE void set(const DotPixels& pixels, const LaneModel& model, int first, int end) {
+    int block = 0;
+    for (int i = first; i < end; i += kBlock, ++block) {
+      const auto at = static_cast<std::size_t>(i);
+      const Vector x = hn::Sub(hn::LoadU(kLanes, pixels.x.data() + at), model.x);
+      const Vector y = hn::Sub(hn::LoadU(kLanes, pixels.y.data() + at), model.y);
+      of_[block] = place_at(model, x, y);
+    }
+  }
+  HWY_INLINE const Place& operator[](int block) const { return of_[block]; }
+
+ private:
+  Place of_[kBlocks];
+};
+
+// Of some pixels against the outline. Where none is on the blurred edge, p and w are nothing.
+struct Edge {
+  Vector e, p, z, w;
+  bool any;
+};
+
+HWY_INLINE Edge edge_at(const LaneModel& model, const Place& place) {
+  const Vector z = place.z;
+  const auto near = hn::Lt(hn::Abs(z), all(kCut));
+  if (hn::AllFalse(kLanes, near)) {
+    const Vector none = hn::Zero(kLanes);
+    const Vector e = hn::IfThenElse(hn::Gt(z, none), model.e_inside, model.e_outside);
+    return {e, none, none, none, false};
+  }
   const Vector cut = hn::Min(hn::Max(z, all(-kCut)), all(kCut));
   const Vector z2 = hn::Mul(cut, cut);
-  const Vector e = hn::Add(all(0.5), hn::Mul(cut, polynomial(z2, kDistribution)));
-  const Vector p = hn::IfThenElseZero(hn::Lt(hn::Abs(z), all(kCut)), polynomial(z2, kDensity));
-  return {e, p, cut, hn::Mul(p, h_per_m)};
+  const Vector p = hn::IfThenElseZero(near, polynomial(z2, kDensity));
+  return {covered(cut, z2), p, cut, hn::Mul(p, place.h_per_m), true};
 }
 
 template <std::size_t kTerms>
@@ -134,13 +184,14 @@ struct Compared {
   Edge edge;
 };
 
-HWY_INLINE Compared compare(const DotPixels& pixels, const LaneModel& model, int i) {
+HWY_INLINE Compared compare(const DotPixels& pixels, const LaneModel& model, const Place& place,
+                            int i) {
   const auto at = static_cast<std::size_t>(i);
   const Vector end = hn::Set(kLanes, static_cast<float>(pixels.count));
   const auto valid = hn::Lt(hn::Iota(kLanes, static_cast<float>(i)), end);
-  const Vector x = hn::Sub(hn::LoadU(kLanes, pixels.x.data() + at), model.x);
-  const Vector y = hn::Sub(hn::LoadU(kLanes, pixels.y.data() + at), model.y);
-  const Edge edge = edge_at(model, x, y);
+  const Vector x = place.x;
+  const Vector y = place.y;
+  const Edge edge = edge_at(model, place);
   const Vector plane =
       hn::Add(model.background, hn::Add(hn::Mul(model.per_x, x), hn::Mul(model.per_y, y)));
   const Vector expected = hn::Add(plane, hn::Mul(model.contrast, edge.e));
@@ -150,13 +201,17 @@ HWY_INLINE Compared compare(const DotPixels& pixels, const LaneModel& model, int
 
 template <class Sums>
 HWY_INLINE void add_common(const Compared& at, Sums& sums) {
-  const Vector rw = hn::Mul(at.r, at.edge.w);
-  const Vector rwx = hn::Mul(rw, at.x);
-  const Vector rwy = hn::Mul(rw, at.y);
   sums.add(ResidualSums::kR, at.r);
   sums.add(ResidualSums::kRx, hn::Mul(at.r, at.x));
   sums.add(ResidualSums::kRy, hn::Mul(at.r, at.y));
   sums.add(ResidualSums::kRe, hn::Mul(at.r, at.edge.e));
+}
+
+template <class Sums>
+HWY_INLINE void add_common_edge(const Compared& at, Sums& sums) {
+  const Vector rw = hn::Mul(at.r, at.edge.w);
+  const Vector rwx = hn::Mul(rw, at.x);
+  const Vector rwy = hn::Mul(rw, at.y);
   sums.add(ResidualSums::kRwx, rwx);
   sums.add(ResidualSums::kRwy, rwy);
   sums.add(ResidualSums::kRwxx, hn::Mul(rwx, at.x));
@@ -168,6 +223,14 @@ HWY_INLINE void add_common(const Compared& at, Sums& sums) {
 template <class Sums>
 HWY_INLINE void add_failing(const Compared& at, Sums& sums) {
   const Vector re = hn::Mul(at.r, at.edge.e);
+  sums.add(ResidualSums::kRex, hn::Mul(re, at.x));
+  sums.add(ResidualSums::kRey, hn::Mul(re, at.y));
+  sums.add(ResidualSums::kRr, hn::Mul(at.r, at.r));
+  sums.add(ResidualSums::kRre, hn::Mul(at.r, re));
+}
+
+template <class Sums>
+HWY_INLINE void add_failing_edge(const Compared& at, Sums& sums) {
   const Vector rw = hn::Mul(at.r, at.edge.w);
   const Vector xx = hn::Mul(at.x, at.x);
   const Vector yy = hn::Mul(at.y, at.y);
@@ -176,15 +239,17 @@ HWY_INLINE void add_failing(const Compared& at, Sums& sums) {
   const Vector twice = hn::Mul(rw, hn::Add(xy, xy));
   sums.add(ResidualSums::kRw3c, hn::Sub(hn::Mul(difference, at.x), hn::Mul(twice, at.y)));
   sums.add(ResidualSums::kRw3s, hn::Add(hn::Mul(difference, at.y), hn::Mul(twice, at.x)));
-  sums.add(ResidualSums::kRex, hn::Mul(re, at.x));
-  sums.add(ResidualSums::kRey, hn::Mul(re, at.y));
-  sums.add(ResidualSums::kRr, hn::Mul(at.r, at.r));
-  sums.add(ResidualSums::kRre, hn::Mul(at.r, re));
   sums.add(ResidualSums::kRrp, hn::Mul(at.r, hn::Mul(at.r, at.edge.p)));
 }
 
 template <class Sums>
 HWY_INLINE void add_derivatives(const Compared& at, Sums& sums) {
+  sums.add(DerivativeSums::kEe, hn::Mul(at.edge.e, at.edge.e));
+  sums.add(DerivativeSums::kE, at.edge.e);
+}
+
+template <class Sums>
+HWY_INLINE void add_derivatives_edge(const Compared& at, Sums& sums) {
   using Term = DerivativeSums;
   const Vector e = at.edge.e;
   const Vector pz = hn::Mul(at.edge.p, at.edge.z);
@@ -209,8 +274,6 @@ HWY_INLINE void add_derivatives(const Compared& at, Sums& sums) {
   sums.add(Term::kPzpz, hn::Mul(pz, pz));
   sums.add(Term::kPze, hn::Mul(pz, e));
   sums.add(Term::kPz, pz);
-  sums.add(Term::kEe, hn::Mul(e, e));
-  sums.add(Term::kE, e);
 }
 
 // Lane i of every block goes to sum i, however many lanes are worked on at a time.
@@ -223,20 +286,52 @@ HWY_INLINE void total(const std::array<std::array<float, kBlock>, kTerms>& lanes
   }
 }
 
+// Calls add with every vector of pixels that begins at lane `part` of its block.
+template <class Add>
+HWY_INLINE void compare_all(const DotPixels& pixels, const LaneModel& model, int part, Add add) {
+  Places places;
+  const int last = pixels.count + part;
+  for (int first = part; first < last; first += Places::kBlocks * kBlock) {
+    const int end = std::min(first + Places::kBlocks * kBlock, last);
+    places.set(pixels, model, first, end);
+    int block = 0;
+    for (int i = first; i < end; i += kBlock) add(compare(pixels, model, places[block++], i));
+  }
+}
+
+struct AllSums {
+  HWY_INLINE void operator()(const Compared& at) const {
+    add_common(at, sums);
+    add_failing(at, sums);
+    if (!at.edge.any) return;
+    add_common_edge(at, sums);
+    add_failing_edge(at, sums);
+  }
+  LaneSums<ResidualSums::kTerms>& sums;
+};
+
 void sum_all(const DotPixels& pixels, const OutlineModel& of, ResidualSums& residuals) {
   const LaneModel model(of);
   std::array<std::array<float, kBlock>, ResidualSums::kTerms> lanes;
   for (int part = 0; part < kBlock; part += kStep) {
     LaneSums<ResidualSums::kTerms> sums;
-    for (int i = part; i < pixels.count + part; i += kBlock) {
-      const Compared at = compare(pixels, model, i);
-      add_common(at, sums);
-      add_failing(at, sums);
-    }
+    compare_all(pixels, model, part, AllSums{sums});
     sums.store(part, lanes);
   }
   total(lanes, residuals.of.data());
 }
+
+struct BothSums {
+  HWY_INLINE void operator()(const Compared& at) const {
+    add_common(at, residuals);
+    add_derivatives(at, derivatives);
+    if (!at.edge.any) return;
+    add_common_edge(at, residuals);
+    add_derivatives_edge(at, derivatives);
+  }
+  LaneSums<ResidualSums::kCommon>& residuals;
+  LaneSums<DerivativeSums::kTerms>& derivatives;
+};
 
 void sum_both(const DotPixels& pixels, const OutlineModel& of, ResidualSums& residuals,
               DerivativeSums& derivatives) {
@@ -246,11 +341,7 @@ void sum_both(const DotPixels& pixels, const OutlineModel& of, ResidualSums& res
   for (int part = 0; part < kBlock; part += kStep) {
     LaneSums<ResidualSums::kCommon> sums;
     LaneSums<DerivativeSums::kTerms> derivative_sums;
-    for (int i = part; i < pixels.count + part; i += kBlock) {
-      const Compared at = compare(pixels, model, i);
-      add_common(at, sums);
-      add_derivatives(at, derivative_sums);
-    }
+    compare_all(pixels, model, part, BothSums{sums, derivative_sums});
     sums.store(part, lanes);
     derivative_sums.store(part, derivative_lanes);
   }

@@ -88,12 +88,35 @@ void Canvas::paint_chord(double y, double height_px, double first, double last, 
   const int x_last = std::min(static_cast<int>(std::ceil(last + reach)), side_ - 1);
   const int y_first = std::max(static_cast<int>(std::floor(y - reach)), 0);
   const int y_last = std::min(static_cast<int>(std::ceil(y + reach)), side_ - 1);
+  if (x_first > x_last) return;
   std::vector<double> down;
   for (int j = y_first; j <= y_last; ++j) down.push_back(spread(j - y) * height_px * dn);
+  // Where the chord covers all that a pixel takes light from, the light is the same: only where
+  // that begins and ends is noted, and add_runs adds it.
+  const int run_first = std::clamp(static_cast<int>(std::ceil(first + reach)), x_first, x_last + 1);
+  const int run_last =
+      std::max(std::min(static_cast<int>(std::floor(last - reach)), x_last), run_first - 1);
+  for (int j = y_first; j <= y_last; ++j) {
+    const double dn_here = down[static_cast<std::size_t>(j - y_first)];
+    runs_[run_index(run_first, j)] += dn_here;
+    runs_[run_index(run_last + 1, j)] -= dn_here;
+  }
   for (int x = x_first; x <= x_last; ++x) {
+    if (x == run_first && run_last >= run_first) x = run_last + 1;
+    if (x > x_last) break;
     const double light = spread_integral(x - first) - spread_integral(x - last);
     for (int j = y_first; j <= y_last; ++j) {
       grey_[index(x, j)] += light * down[static_cast<std::size_t>(j - y_first)];
+    }
+  }
+}
+
+void Canvas::add_runs() {
+  for (int y = 0; y < side_; ++y) {
+    double sum = 0.0;
+    for (int x = 0; x < side_; ++x) {
+      sum += runs_[run_index(x, y)];
+      grey_[index(x, y)] += sum;
     }
   }
 }
@@ -106,6 +129,7 @@ void Canvas::paint(const PaintedEllipse* ellipse, const std::vector<HalfPlane>& 
     top = ellipse->centre.y() - ellipse->semi_major_px;
     bottom = ellipse->centre.y() + ellipse->semi_major_px;
   }
+  runs_.assign(static_cast<std::size_t>((side_ + 1) * side_), 0.0);
   const int rows = static_cast<int>(std::ceil((bottom - top) / kRow_px));
   const double height = (bottom - top) / rows;
   for (int i = 0; i < rows; ++i) {
@@ -115,6 +139,7 @@ void Canvas::paint(const PaintedEllipse* ellipse, const std::vector<HalfPlane>& 
     for (const HalfPlane& half : within) chord = cut(chord, half, y);
     if (chord.first < chord.last) paint_chord(y, height, chord.first, chord.last, dn);
   }
+  add_runs();
 }
 
 void Canvas::bloom(double full_well_dn) {

@@ -48,6 +48,10 @@ class Canvas {
 
  private:
   std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * side_ + x); }
+  std::size_t run_index(int x, int y) const {
+    return static_cast<std::size_t>(y * (side_ + 1) + x);
+  }
+  void add_runs();
   void paint_chord(double y, double height_px, double first, double last, double dn);
   double spread(double t) const;
   double spread_integral(double t) const;
@@ -55,6 +59,7 @@ class Canvas {
   int side_;
   double blur_;
   std::vector<double> grey_;
+  std::vector<double> runs_;  // steps of grey along the rows, while a shape is painted
 };
 
 }  // namespace dottrack::image::test
