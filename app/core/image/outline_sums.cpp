@@ -100,6 +100,11 @@ struct LaneModel {
 // Where some pixels are: from the centre, and z of them; the outline moves by h_per_m where u^T A u
 // does by 2.
 struct Place {
+  // Spelled out: a constructor of the compiler's making would be built for another processor.
+  HWY_INLINE Place() {}
+  HWY_INLINE Place(Vector x_of, Vector y_of, Vector z_of, Vector h_per_m_of)
+      : x(x_of), y(y_of), z(z_of), h_per_m(h_per_m_of) {}
+
   Vector x, y, z, h_per_m;
 };
 
@@ -126,6 +131,8 @@ HWY_INLINE Place place_at(const LaneModel& model, Vector x, Vector y) {
 class Places {
  public:
   static constexpr int kBlocks = 16;
+
+  HWY_INLINE Places() {}
 
   HWY_INLINE void set(const DotPixels& pixels, const LaneModel& model, int first, int end) {
     int block = 0;
@@ -165,7 +172,6 @@ HWY_INLINE Edge edge_at(const LaneModel& model, const Place& place) {
 template <std::size_t kTerms>
 class LaneSums {
  public:
-  // Spelled out: a constructor of the compiler's making would be built for another processor.
   HWY_INLINE LaneSums() {
     for (Vector& sum : of_) sum = hn::Zero(kLanes);
   }
