@@ -338,8 +338,8 @@ core::Reason Acquisition::make_lock(const Selection& selection, WorkBudget& budg
     dots.push_back(
         estimation::triangulated_dot(witness.dot, witness.position_m, witness.covariance_m2));
   }
-  const core::Reason reason = estimation::reason_of(estimation::locate(
-      rig_->target, as_span(dots), rig_->limits.max_rms_residual_m, lock.pose));
+  const core::Reason reason = estimation::reason_of(
+      estimation::locate(rig_->target, as_span(dots), rig_->limits.max_rms_residual_m, lock.pose));
   if (reason != core::Reason::none) return reason;
   budget.spend(units_to_weigh(selection));
   lock.log_odds =

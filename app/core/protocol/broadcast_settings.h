@@ -10,8 +10,8 @@
 
 namespace dottrack::protocol {
 
-// Which pose goes out as the pose. The first has gaps where the target is not seen; the others go on
-// for as long as the filter may coast, and say so.
+// Which pose goes out as the pose. The first has gaps where the target is not seen; the others go
+// on for as long as the filter may coast, and say so.
 enum class PoseChoice : std::uint8_t { measured, filtered, predicted };
 
 struct BroadcastSettings {

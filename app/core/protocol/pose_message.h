@@ -52,7 +52,8 @@ struct PoseMessage {
   std::uint8_t dots_used = 0;
   std::uint8_t reset_count = 0;  // locks so far, modulo 256
   DegradedSet degraded;
-  Time mid_exposure{};  // when the pose holds; whole microseconds on the bus, modulo 2^48 (8.9 years)
+  Time mid_exposure{};  // when the pose holds; whole microseconds on the bus, modulo 2^48 (8.9
+                        // years)
   Duration age{};       // from the middle of the exposure until now
 
   PoseKind kind = PoseKind::measured;

@@ -80,7 +80,8 @@ TEST_F(TrackerTest, ASteadyTargetGivesASteadyPoseAndASmallCovariance) {
 TEST_F(TrackerTest, TellsHowTheVehicleMovesFromTheSecondTickOfALockOn) {
   lock();
   auto frames = room_.frames();
-  EXPECT_FALSE(tracker_.step(frames).filtered.motion.known);  // the pictures are of the same instant
+  EXPECT_FALSE(
+      tracker_.step(frames).filtered.motion.known);  // the pictures are of the same instant
   show(PaintedRoom::pose_at(middle_.position_m.x() + 0.05, middle_.position_m.y(), 0.3));
   frames = room_.frames();
   for (CameraFrame& frame : frames) frame.mid_exposure += std::chrono::milliseconds(100);

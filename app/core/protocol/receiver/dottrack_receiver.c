@@ -90,7 +90,8 @@ typedef struct place {
 } place;
 
 typedef struct layout {
-  place version, state, pose_valid, out_of_range, reason, cameras_used, dots_used, pose_kind, reset_count;
+  place version, state, pose_valid, out_of_range, reason, cameras_used, dots_used, pose_kind,
+      reset_count;
   place capture, age, degraded, false_lock, residual;
   place dots_follow, covariance_follows, motion_follows, cameras_follow;
   place position[3], orientation[4], sigma[6];

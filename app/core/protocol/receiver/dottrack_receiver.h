@@ -91,7 +91,7 @@ typedef struct dottrack_pose {
   bool out_of_range;     /* there is a pose, but it does not fit into the messages */
   uint16_t cameras_used; /* one bit a camera */
   uint8_t dots_used;
-  uint8_t kind; /* dottrack_kind */
+  uint8_t kind;        /* dottrack_kind */
   uint16_t degraded;   /* one bit a reason: dottrack_degraded_text() */
   uint8_t reset_count; /* a new value: the pose may have jumped */
   bool restarted;      /* the unit's clock began anew since the group before */
