@@ -50,6 +50,7 @@ Reason PoseLocator::locate(const SeenDots& seen, const Expectation& expected,
                            const PlacedDots& placed, const estimation::CaptureTimes& times) {
   has_pose_ = false;
   fit_ = {};
+  sound_.fill(false);
   triangulate(seen, expected, placed, times);
   observe(seen);
   if (dots_step_too_far(placed)) return Reason::step_too_large;
@@ -62,19 +63,23 @@ Reason PoseLocator::locate(const SeenDots& seen, const Expectation& expected,
   return judge(placed);
 }
 
+// From the views that show the dot whole; from all where they are too few.
 void PoseLocator::triangulate(const SeenDots& seen, const Expectation& expected,
                               const PlacedDots& placed, const estimation::CaptureTimes& times) {
   for (std::size_t dot = 0; dot < rig_->target.dots.size(); ++dot) {
-    estimation::Views views;
+    estimation::Views all;
+    estimation::Views sound;
     for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
       if (!seen.counts(camera, dot)) continue;
-      views.push_back({camera, &rig_->cameras[camera], &seen.by_camera[camera][dot].sighting,
-                       way_of(expected, placed[dot], times.after_s[camera])});
+      all.push_back({camera, &rig_->cameras[camera], &seen.by_camera[camera][dot].sighting,
+                     way_of(expected, placed[dot], times.after_s[camera])});
+      if (seen.is_sound(camera, dot)) sound.push_back(all.back());
     }
     core::DotState& state = dots_[dot];
     state = {};
     estimation::DotPosition position;
-    if (!estimation::locate_dot(views, position)) continue;
+    sound_[dot] = estimation::locate_dot(sound, position);
+    if (!sound_[dot] && !estimation::locate_dot(all, position)) continue;
     state.located = true;
     state.position_m = position.position_m;
     state.position_sigma_m = std::sqrt(position.covariance_m2.trace());
@@ -135,11 +140,15 @@ int PoseLocator::dots_used() const {
   return static_cast<int>(std::count(used.begin(), used.end(), true));
 }
 
+// A dot that shows whole nowhere is off by what hides it, not by a wrong pose: where three others
+// are sound, it does not count.
 double PoseLocator::triangulated_residual_m() const {
+  const auto sound = std::count(sound_.begin(), sound_.end(), true);
+  const bool sound_alone = sound >= static_cast<std::ptrdiff_t>(core::kMinDots);
   double sum = 0.0;
   int n = 0;
   for (std::size_t dot = 0; dot < rig_->target.dots.size(); ++dot) {
-    if (!dots_[dot].located) continue;
+    if (!dots_[dot].located || (sound_alone && !sound_[dot])) continue;
     sum += (dots_[dot].position_m - place_of(dot)).squaredNorm();
     ++n;
   }
