@@ -50,7 +50,6 @@ Reason PoseLocator::locate(const SeenDots& seen, const Expectation& expected,
                            const PlacedDots& placed, const estimation::CaptureTimes& times) {
   has_pose_ = false;
   fit_ = {};
-  sound_.fill(false);
   triangulate(seen, expected, placed, times);
   observe(seen);
   if (dots_step_too_far(placed)) return Reason::step_too_large;
@@ -63,23 +62,19 @@ Reason PoseLocator::locate(const SeenDots& seen, const Expectation& expected,
   return judge(placed);
 }
 
-// From the views that show the dot whole; from all where they are too few.
 void PoseLocator::triangulate(const SeenDots& seen, const Expectation& expected,
                               const PlacedDots& placed, const estimation::CaptureTimes& times) {
   for (std::size_t dot = 0; dot < rig_->target.dots.size(); ++dot) {
-    estimation::Views all;
-    estimation::Views sound;
+    estimation::Views views;
     for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
       if (!seen.counts(camera, dot)) continue;
-      all.push_back({camera, &rig_->cameras[camera], &seen.by_camera[camera][dot].sighting,
-                     way_of(expected, placed[dot], times.after_s[camera])});
-      if (seen.is_sound(camera, dot)) sound.push_back(all.back());
+      views.push_back({camera, &rig_->cameras[camera], &seen.by_camera[camera][dot].sighting,
+                       way_of(expected, placed[dot], times.after_s[camera])});
     }
     core::DotState& state = dots_[dot];
     state = {};
     estimation::DotPosition position;
-    sound_[dot] = estimation::locate_dot(sound, position);
-    if (!sound_[dot] && !estimation::locate_dot(all, position)) continue;
+    if (!estimation::locate_dot(views, position)) continue;
     state.located = true;
     state.position_m = position.position_m;
     state.position_sigma_m = std::sqrt(position.covariance_m2.trace());
@@ -140,15 +135,11 @@ int PoseLocator::dots_used() const {
   return static_cast<int>(std::count(used.begin(), used.end(), true));
 }
 
-// A dot that shows whole nowhere is off by what hides it, not by a wrong pose: where three others
-// are sound, it does not count.
 double PoseLocator::triangulated_residual_m() const {
-  const auto sound = std::count(sound_.begin(), sound_.end(), true);
-  const bool sound_alone = sound >= static_cast<std::ptrdiff_t>(core::kMinDots);
   double sum = 0.0;
   int n = 0;
   for (std::size_t dot = 0; dot < rig_->target.dots.size(); ++dot) {
-    if (!dots_[dot].located || (sound_alone && !sound_[dot])) continue;
+    if (!dots_[dot].located) continue;
     sum += (dots_[dot].position_m - place_of(dot)).squaredNorm();
     ++n;
   }

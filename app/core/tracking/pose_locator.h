@@ -49,7 +49,6 @@ class PoseLocator {
   estimation::DotObservations observations_;
   estimation::PoseFit fit_;
   std::array<core::DotState, core::kMaxDots> dots_{};
-  std::array<bool, core::kMaxDots> sound_{};  // triangulated from views that show the dot whole
   bool has_pose_ = false;
 };
 

@@ -28,11 +28,6 @@ struct SeenDots {
   bool counts(std::size_t camera, std::size_t dot) const {
     return by_camera[camera][dot].any && !distrusted.contains(camera);
   }
-  // Counts, and the dot shows whole there.
-  bool is_sound(std::size_t camera, std::size_t dot) const {
-    const core::DotFlaw flaw = by_camera[camera][dot].flaw;
-    return counts(camera, dot) && (flaw == core::DotFlaw::none || flaw == core::DotFlaw::faint);
-  }
 };
 
 }  // namespace dottrack::tracking
