@@ -1,6 +1,7 @@
 # Headers of libraries, compiled once for each set of flags and read by all targets with those flags.
-# With them a source compiles that names too few headers, so only builds that compile everything a
-# second time have them, those with a sanitizer: docs/adr/0024.
+# With them a source compiles that names too few headers, so `dev` and what the unit runs have none:
+# docs/adr/0024 and 0040.
+option(DOTTRACK_PRECOMPILE "Precompile the headers of libraries" OFF)
 set(precompiled_headers
   <algorithm> <array> <cmath> <cstdint> <functional> <memory> <optional> <span> <string>
   <string_view> <utility> <vector>
@@ -24,12 +25,12 @@ function(dottrack_precompile name)
   add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/precompiled/${name}.cpp)
   target_link_libraries(${name} PRIVATE ${ARG_USES} dottrack_precompiled dottrack_warnings)
   target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
-  if(ARG_QUICK)
+  if(ARG_QUICK AND DOTTRACK_SANITIZE)
     target_compile_options(${name} PRIVATE -O0)
   endif()
 endfunction()
 
-if(DOTTRACK_SANITIZE)
+if(DOTTRACK_PRECOMPILE)
   dottrack_precompile(precompiled HEADERS ${precompiled_headers})
   dottrack_precompile(precompiled_quick QUICK HEADERS ${precompiled_headers})
   if(DOTTRACK_TESTS)
@@ -45,7 +46,7 @@ endif()
 # does without.
 function(dottrack_read_precompiled target name)
   get_target_property(sources ${target} SOURCES)
-  if(DOTTRACK_SANITIZE AND NOT sources MATCHES "\\.c(;|$)")
+  if(DOTTRACK_PRECOMPILE AND NOT sources MATCHES "\\.c(;|$)")
     target_link_libraries(${target} PRIVATE dottrack_precompiled)
     target_precompile_headers(${target} REUSE_FROM ${name})
   endif()

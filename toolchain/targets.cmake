@@ -26,7 +26,8 @@ function(dottrack_quick_to_sanitize target)
 endfunction()
 
 # dottrack_test(NAME [COMPUTES] SOURCES file... [USES target...] [LABELS label...]): one GoogleTest
-# program, registered test by test. COMPUTES: its own code has so much to compute, a slow reference
+# program, registered test by test. Under a sanitizer there is none with the label `slow`; with the label
+# `shipped` it runs both there and as it is shipped. COMPUTES: its own code has so much to compute, a slow reference
 # say, that it is optimised with a sanitizer too. The target tests_LABEL builds all programs of that label; the label
 # `threads` is for tests that start threads and so run under the thread sanitizer too.
 set(test_discovery POST_BUILD)
@@ -35,6 +36,9 @@ if(CMAKE_CROSSCOMPILING)
 endif()
 function(dottrack_test name)
   cmake_parse_arguments(ARG "COMPUTES" "" "SOURCES;USES;LABELS" ${ARGN})
+  if(DOTTRACK_SANITIZE AND "slow" IN_LIST ARG_LABELS)
+    return()
+  endif()
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE ${ARG_USES} GTest::gmock GTest::gtest_main dottrack_warnings)

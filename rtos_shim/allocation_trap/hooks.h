@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(DOTTRACK_SANITIZES_ADDRESS) || defined(DOTTRACK_SANITIZES_THREAD)
 #define DOTTRACK_SANITIZER_HEAP 1
 #else
 #define DOTTRACK_SANITIZER_HEAP 0

@@ -29,7 +29,8 @@ std::size_t stack_left_bytes() {
 // Page by page downwards, the way a stack grows. The page of this very frame is in memory already,
 // and the foot of each page below it is out of reach of what this frame holds. To a sanitizer such
 // writes are astray.
-[[gnu::noinline, gnu::no_sanitize("address", "thread")]] void touch_stack(std::size_t depth_bytes) {
+[[gnu::noinline, gnu::no_sanitize_address, gnu::no_sanitize_thread]] void touch_stack(
+    std::size_t depth_bytes) {
   const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
   const auto here = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
   const std::uintptr_t end = here - depth_bytes;

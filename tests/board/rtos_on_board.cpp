@@ -84,9 +84,6 @@ TEST(RealTimeOnBoard, TheTimerKeepsItsGridUnderPriorityAndAllocatesNothing) {
 }
 
 TEST(MemoryLockOnBoard, WhatTheProcessHasIsLocked) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "a sanitizer keeps the memory";
-#endif
   const auto locked = PosixMemoryLock().lock_all(256 * 1024);
   if (!locked) GTEST_SKIP() << locked.error().message;
   EXPECT_GT(locked_kib(), 1000);

@@ -201,7 +201,7 @@ double false_lock_probability(double log_odds, std::span<const double> rivals) {
   if (!known || std::isinf(largest)) return 1.0;  // infinite odds are no evidence but a mistake
   double wrong = std::exp(-largest);
   for (const double rival : rivals) wrong += std::exp(rival - largest);
-  return static_cast<float>(wrong / (wrong + std::exp(log_odds - largest)));
+  return static_cast<double>(static_cast<float>(wrong / (wrong + std::exp(log_odds - largest))));
 }
 
 }  // namespace dottrack::acquisition

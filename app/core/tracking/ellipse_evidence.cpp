@@ -8,6 +8,11 @@
 namespace dottrack::tracking {
 namespace {
 
+geometry::ImageEllipse ellipse_of(const core::DotView& view) {
+  return {static_cast<double>(view.semi_major_px), static_cast<double>(view.semi_minor_px),
+          static_cast<double>(view.angle_rad)};
+}
+
 double view_log_odds(const core::Camera& camera, const PlacedDot& dot, const core::DotView& view) {
   geometry::ImageEllipse expected;
   if (!faces(camera, dot) ||
@@ -15,8 +20,7 @@ double view_log_odds(const core::Camera& camera, const PlacedDot& dot, const cor
                              expected) != geometry::OpticsStatus::ok) {
     return estimation::kLeastEllipseLogOdds;
   }
-  return estimation::ellipse_log_odds(expected,
-                                      {view.semi_major_px, view.semi_minor_px, view.angle_rad});
+  return estimation::ellipse_log_odds(expected, ellipse_of(view));
 }
 
 double dot_log_odds(const core::Rig& rig, const PlacedDot& dot, const core::DotState& state) {

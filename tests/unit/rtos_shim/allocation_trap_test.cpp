@@ -29,7 +29,7 @@ struct alignas(128) OverAligned {
   char bytes[128];
 };
 
-#ifdef __SANITIZE_THREAD__
+#ifdef DOTTRACK_SANITIZES_THREAD
 constexpr bool kAlignedFormsAreSeen = false;  // the thread sanitizer does not tell of them
 #else
 constexpr bool kAlignedFormsAreSeen = true;

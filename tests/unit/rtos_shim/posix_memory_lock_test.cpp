@@ -17,7 +17,7 @@ namespace {
 using testing::HasSubstr;
 
 // Sanitizers have the heap in their hands and take mlockall for done.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(DOTTRACK_SANITIZES_ADDRESS) || defined(DOTTRACK_SANITIZES_THREAD)
 constexpr bool kMemoryIsOurs = false;
 #else
 constexpr bool kMemoryIsOurs = true;
