@@ -45,7 +45,11 @@ host_sim::PictureSource through_irises(host_sim::PictureSource pictures, const G
 }  // namespace
 
 Board::Board(const host_sim::Scene& scene, const EmulatorSetup& setup)
-    : scene_(scene), setup_(setup), gpio_(scene.cameras.size()), times_(1) {}
+    : scene_(scene),
+      setup_(setup),
+      gpio_(scene.cameras.size()),
+      lighting_(scene.cameras.size()),
+      times_(1) {}
 
 Board::~Board() {
   if (cameras_) cameras_->stop();
@@ -56,7 +60,7 @@ Result<void> Board::open_cameras() {
   if (!setup) return tl::unexpected(setup.error());
   // One thread: the emulated processors need the others.
   auto bank = host_sim::UsbCameraBank::open(
-      *setup, through_irises(host_sim::pictures_of(scene_, 1), gpio_));
+      *setup, through_irises(lighting_.light(host_sim::pictures_of(scene_, 1)), gpio_));
   if (!bank) return tl::unexpected(bank.error());
   cameras_ = std::move(*bank);
   cameras_->start();

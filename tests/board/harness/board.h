@@ -12,6 +12,7 @@
 #include "tests/board/harness/emulator.h"
 #include "tests/board/harness/gpio_bench.h"
 #include "tests/board/harness/guest_shell.h"
+#include "tests/board/harness/lighting.h"
 #include "tests/board/harness/pose_log.h"
 #include "tests/board/harness/time_map.h"
 
@@ -46,6 +47,7 @@ class Board {
   Time powered_on() const { return powered_on_; }
   const host_sim::Scene& scene() const { return scene_; }
   host_sim::UsbCameraBank& cameras() { return *cameras_; }
+  Lighting& lighting() { return lighting_; }
   Emulator& emulator() { return *emulator_; }
   GuestShell& shell() { return *shell_; }
   const PoseLog& poses() const { return poses_; }
@@ -62,6 +64,7 @@ class Board {
   EmulatorSetup setup_;
   PoseLog poses_;
   GpioBench gpio_;
+  Lighting lighting_;
   std::vector<TimeMap> times_;  // one a boot
   Time powered_on_{};
   std::size_t heard_before_ = 0;  // bytes from the shell before this boot

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "tests/board/harness/fault_steps.h"
+#include "tests/board/harness/rig_edits.h"
 
 namespace dottrack::board {
 namespace {
@@ -9,40 +10,20 @@ using std::chrono::seconds;
 
 constexpr auto kReopenPatience = seconds(120);
 
-// As a user would who has the card in hand, but with the unit running.
-constexpr const char* kEdit =
-    "rig=$(readlink -f /etc/dottrack/rig.toml) && "
-    "mount -o remount,rw \"$(findmnt -no TARGET -T \"$rig\")\" && cp \"$rig\" /run/rig.toml && "
-    "sed '{}' /run/rig.toml >\"$rig\"";
 constexpr const char* kBreak = R"(s/^frame_rate_hz.*/frame_rate_hz = "often"/)";
 constexpr const char* kExpose = "s/^exposure_ms = .*/exposure_ms = 3.2/";
 constexpr Duration kExposure = std::chrono::microseconds(3200);
-constexpr const char* kRepair =
-    "rig=$(readlink -f /etc/dottrack/rig.toml) && cp /run/rig.toml \"$rig\" && sync && "
-    "mount -o remount,ro \"$(findmnt -no TARGET -T \"$rig\")\"";
-constexpr const char* kHangUp = "systemctl kill -s HUP --kill-who=main dottrackd.service";
-
-Result<void> read_anew(Board& board, const std::string& prepare) {
-  for (const std::string& command : {prepare, std::string(kHangUp)}) {
-    if (auto done = board.shell().check(command, kCommandPatience); !done) {
-      return tl::unexpected(done.error());
-    }
-  }
-  return {};
-}
-
 Result<std::string> break_and_repair(Board& board) {
   const auto process = board.service("MainPID");
   if (!process) return process;
   const std::size_t journal = board.journal().size();
   const std::size_t first = board.poses().size();
-  if (auto done = read_anew(board, fmt::format(kEdit, kBreak)); !done)
-    return tl::unexpected(done.error());
+  if (auto done = edit_rig(board, kBreak); !done) return tl::unexpected(done.error());
   auto reason = await_journal(board, journal, {"rig.toml:3", "frame_rate_hz", "stays as it was"},
                               seconds(30));
   const auto on = await_poses(board, first, kPosesToGoOn, kPosePatience);
   const std::size_t repaired = board.journal().size();
-  if (auto done = read_anew(board, kRepair); !done) return tl::unexpected(done.error());
+  if (auto done = restore_rig(board); !done) return tl::unexpected(done.error());
   if (!reason) return reason;
   if (!on) return fail("with the broken file: " + on.error().message);
   if (auto taken = await_journal(board, repaired, {"configuration is in force"}, seconds(60));
@@ -61,14 +42,14 @@ Result<std::string> change_and_restore(Board& board) {
   if (!process) return process;
   const std::size_t journal = board.journal().size();
   const std::size_t first = board.poses().size();
-  if (auto done = read_anew(board, fmt::format(kEdit, kExpose)); !done) {
+  if (auto done = edit_rig(board, kExpose); !done) {
     return tl::unexpected(done.error());
   }
   const auto opened = await_journal(board, journal, {"devices opened anew"}, kReopenPatience);
   const auto on = await_poses(board, board.poses().size(), kPosesToGoOn, kPosePatience);
   const Duration set = board.cameras().exposure(0).exposure;
   const std::size_t restored = board.journal().size();
-  if (auto done = read_anew(board, kRepair); !done) return tl::unexpected(done.error());
+  if (auto done = restore_rig(board); !done) return tl::unexpected(done.error());
   if (!opened) return opened;
   if (!on) return fail("with the other exposure: " + on.error().message);
   if (set != kExposure) {

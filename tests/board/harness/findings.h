@@ -21,6 +21,7 @@ Finding camera_unplugged(Board& board);
 Finding can_bus_down(Board& board);
 Finding broken_rig_file(Board& board);
 Finding other_exposure(Board& board);
+Finding lamps_dimmed(Board& board);
 Finding recording_disk_full(Board& board);
 Finding process_stopped(Board& board);
 

@@ -39,11 +39,11 @@ struct Fault {
 };
 
 constexpr std::array kFaults{
-    Fault{"camera", camera_unplugged},  Fault{"can", can_bus_down},
-    Fault{"rig", broken_rig_file},      Fault{"exposure", other_exposure},
-    Fault{"disk", recording_disk_full}, Fault{"hang", process_stopped},
-    Fault{"end", told_to_end},          Fault{"measure", measuring},
-    Fault{"tests", hardware_tests},
+    Fault{"camera", camera_unplugged}, Fault{"can", can_bus_down},
+    Fault{"rig", broken_rig_file},     Fault{"exposure", other_exposure},
+    Fault{"light", lamps_dimmed},      Fault{"disk", recording_disk_full},
+    Fault{"hang", process_stopped},    Fault{"end", told_to_end},
+    Fault{"measure", measuring},       Fault{"tests", hardware_tests},
 };
 
 class Report {
@@ -117,7 +117,7 @@ void add_run(CLI::App& app, Options& options) {
   app.add_option("--out", emulator.out, "folder of the report and the logs")->required();
   app.add_option("--poses", options.poses, "how many before the faults")->capture_default_str();
   app.add_option("--only", options.only,
-                 "these faults: camera can rig exposure disk hang end measure tests")
+                 "these faults: camera can rig exposure light disk hang end measure tests")
       ->delimiter(',');
 }
 
