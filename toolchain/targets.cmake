@@ -20,7 +20,7 @@ endfunction()
 # sanitizer, optimising the checks takes longer than running them ever does.
 function(dottrack_quick_to_sanitize target)
   if(DOTTRACK_SANITIZE)
-    target_compile_options(${target} PRIVATE -O0)
+    target_compile_options(${target} PRIVATE ${dottrack_quick})
     dottrack_read_precompiled(${target} precompiled_quick)
   endif()
 endfunction()
@@ -28,7 +28,7 @@ endfunction()
 # dottrack_test(NAME [COMPUTES] SOURCES file... [USES target...] [LABELS label...]): one GoogleTest
 # program, registered test by test. Under a sanitizer there is none with the label `slow`; with the label
 # `shipped` it runs both there and as it is shipped. COMPUTES: its own code has so much to compute, a slow reference
-# say, that it is optimised with a sanitizer too. The target tests_LABEL builds all programs of that label; the label
+# say, that it is optimised, with a sanitizer too. The target tests_LABEL builds all programs of that label; the label
 # `threads` is for tests that start threads and so run under the thread sanitizer too.
 set(test_discovery POST_BUILD)
 if(CMAKE_CROSSCOMPILING)
@@ -46,7 +46,7 @@ function(dottrack_test name)
   if(ARG_COMPUTES)
     dottrack_read_precompiled(${name} precompiled_tests)
   else()
-    dottrack_quick_to_sanitize(${name})
+    target_compile_options(${name} PRIVATE ${dottrack_quick})
     dottrack_read_precompiled(${name} precompiled_tests_quick)
   endif()
   set(properties TIMEOUT 600)

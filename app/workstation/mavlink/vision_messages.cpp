@@ -8,7 +8,7 @@
 namespace dottrack::workstation {
 namespace {
 
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 // common.xml
 constexpr std::uint8_t kTypeOnboardController = 18;

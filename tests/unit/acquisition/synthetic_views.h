@@ -49,7 +49,8 @@ inline void see(const core::Camera& camera, const std::vector<Eigen::Vector3d>& 
     if (pixel.x() < 10 || pixel.y() < 10 || pixel.x() > 630 || pixel.y() > 470) continue;
     const double range_m = (point - geometry::centre(camera.model)).norm();
     image::Region region;
-    region.centroid_px = pixel + Eigen::Vector2d(noise(random), noise(random));
+    region.centroid_px = pixel;
+    for (const int axis : {1, 0}) region.centroid_px[axis] += noise(random);
     region.semi_major_px = 0.5 * diameter_m / range_m * optics.at(pixel).mean_px();
     region.semi_minor_px = region.semi_major_px;
     const double r = region.semi_major_px;
@@ -70,7 +71,11 @@ inline std::vector<Eigen::Vector3d> points_in_room(std::size_t n, std::mt19937& 
   std::uniform_real_distribution<double> y(1.0, 5.0);
   std::uniform_real_distribution<double> z(0.0, 1.0);
   std::vector<Eigen::Vector3d> points;
-  for (std::size_t i = 0; i < n; ++i) points.emplace_back(x(random), y(random), z(random));
+  for (std::size_t i = 0; i < n; ++i) {
+    const double up = z(random);
+    const double left = y(random);
+    points.emplace_back(x(random), left, up);
+  }
   return points;
 }
 

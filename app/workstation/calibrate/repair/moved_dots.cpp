@@ -10,7 +10,7 @@
 #include "app/core/acquisition/sightings.h"
 #include "app/core/geometry/optics.h"
 #include "app/core/image/band.h"
-#include "app/core/image/dot_centre.h"
+#include "app/core/image/dot_fit.h"
 #include "app/core/image/identify.h"
 #include "app/core/tracking/expected_dot.h"
 #include "drivers/recorded/pgm_reader.h"
@@ -121,7 +121,9 @@ class Search {
     const ImageView image{pixels_.data(), camera_.width_px, camera_.height_px, camera_.width_px};
     identifier_.identify(image, image::band_of(camera_), gate_, regions_);
     for (const image::Region& region : regions_) {
-      if (!region.touches_border) picture.found.push_back(image::dot_centre(image, region));
+      if (region.touches_border) continue;
+      const image::DotFit fit = image::fit_dot(image, region, nullptr);
+      if (fit.flaw == image::DotFlaw::none) picture.found.push_back(fit.centre_px);
     }
     return picture;
   }
