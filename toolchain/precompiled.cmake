@@ -19,6 +19,12 @@ foreach(library Eigen3::Eigen Boost::headers fmt::fmt tl::expected)
     $<TARGET_PROPERTY:${library},INTERFACE_COMPILE_DEFINITIONS>)
 endforeach()
 
+# g++ 12 takes the standard library's lines in precompiled headers for ours, and warns of them.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(dottrack_precompiled INTERFACE
+    -Wno-error=array-bounds -Wno-error=stringop-overflow -Wno-error=restrict)
+endif()
+
 # How code is compiled that is many lines around few instructions.
 set(dottrack_quick -O1)
 if(DOTTRACK_SANITIZE)
