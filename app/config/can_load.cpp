@@ -35,7 +35,8 @@ struct Change {
 };
 
 // In the order of what a vehicle misses least.
-constexpr std::array<Change, 7> kChanges{{{"dots_every", &Rates::dots_every, 0},
+constexpr std::array<Change, 8> kChanges{{{"light_every", &Rates::light_every, 0},
+                                          {"dots_every", &Rates::dots_every, 0},
                                           {"covariance_every", &Rates::covariance_every, 10},
                                           {"covariance_every", &Rates::covariance_every, 0},
                                           {"motion_every", &Rates::motion_every, 0},

@@ -72,6 +72,8 @@ void read_rates(TableReader& reader, bool fd, protocol::Rates& rates) {
   rates.cameras_every = read_every(reader, "cameras_every", rates.cameras_every);
   rates.dots_every = read_every(reader, "dots_every", rates.dots_every);
   rates.identity_every = read_every(reader, "identity_every", rates.identity_every);
+  rates.light_every = static_cast<unsigned>(
+      reader.integer("light_every", static_cast<int>(rates.light_every), kEvery));
 }
 
 protocol::PoseChoice read_pose_choice(TableReader& reader) {
@@ -90,7 +92,7 @@ void read_can(Complaint& complaint, const toml::table& table, CanConfig& can) {
   TableReader reader(complaint, table, "[can]",
                      {"interface", "base_id", "extended", "fd", "bit_rate", "data_bit_rate",
                       "max_load", "pose_every", "covariance_every", "motion_every", "cameras_every",
-                      "dots_every", "identity_every", "commands", "pose"});
+                      "dots_every", "identity_every", "light_every", "commands", "pose"});
   can.interface = reader.text("interface", can.interface);
   if (can.interface.empty() || can.interface.size() > 15) {
     reader.complain("interface", in_quotes(can.interface), "a network interface such as can0");

@@ -8,7 +8,8 @@
 
 namespace dottrack::config {
 
-// A key without effect, such as data_bit_rate of a bus that is not fd, is a complaint.
+// What `can` has is the default. A key without effect, such as data_bit_rate of a bus that is not
+// fd, is a complaint.
 void read_can(Complaint& complaint, const toml::table& table, CanConfig& can);
 
 }  // namespace dottrack::config

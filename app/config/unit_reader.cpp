@@ -154,10 +154,11 @@ CameraUnitConfig read_camera_unit(Complaint& complaint, TableReader& camera) {
 
 void read_unit(Complaint& complaint, const toml::table& root, UnitConfig& unit) {
   const auto table = [&](std::string_view key) { return find_table(complaint, root, key); };
+  if (const auto* light = table("light")) read_light(complaint, *light, unit.light);
+  unit.can.rates.light_every = unit.light.control ? 1 : 0;
   if (const auto* can = table("can")) read_can(complaint, *can, unit.can);
   if (const auto* trigger = table("trigger")) read_trigger(complaint, *trigger, unit);
   if (const auto* lamp = table("lamp")) read_lamp(complaint, *lamp, unit);
-  if (const auto* light = table("light")) read_light(complaint, *light, unit.light);
   if (const auto* loop = table("loop")) read_loop(complaint, *loop, unit.loop);
   if (const auto* recording = table("recording")) read_recording(complaint, *recording, unit);
 }

@@ -34,6 +34,8 @@ class BroadcastPlan {
 
   // Whether the identity is due with this group. Asked once a group, after `next`.
   bool identity_due() const { return falls_due(rates_.identity_every); }
+  // Whether the light of the next camera is. Not after a group that was cut short.
+  bool light_due() const { return !owed_ && falls_due(rates_.light_every); }
 
  private:
   bool falls_due(unsigned every) const { return every != 0 && (groups_ - 1) % every == 0; }

@@ -1,5 +1,7 @@
 #include "app/cycle/broadcaster.h"
 
+#include "app/core/protocol/light_message.h"
+
 namespace dottrack::cycle {
 namespace {
 
@@ -17,6 +19,15 @@ bool Broadcaster::tell(protocol::PoseMessage message, Time deadline,
   if (whole && (plan_.identity_due() || identity_wanted_)) send_identity(deadline, counters);
   ++sequence_;
   return true;
+}
+
+void Broadcaster::tell_light(std::span<const exposure::CameraLight> cameras, Time deadline,
+                             telemetry::CycleCounters& counters) {
+  if (cameras.empty() || !plan_.light_due()) return;
+  const std::size_t camera = lit_camera_ % cameras.size();
+  const auto frame = protocol::encode_light(static_cast<std::uint8_t>(camera), cameras[camera],
+                                            settings_.addressing, lights_++);
+  if (send(frame, deadline, counters)) lit_camera_ = camera + 1;
 }
 
 void Broadcaster::part(const protocol::PoseMessage& message, Time deadline,

@@ -1,9 +1,12 @@
 #pragma once
 // The loop's voice and ear on the CAN bus.
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
+#include "app/core/exposure/camera_light.h"
 #include "app/core/protocol/broadcast_settings.h"
 #include "app/core/protocol/command.h"
 #include "app/core/protocol/pose_encoder.h"
@@ -26,6 +29,11 @@ class Broadcaster {
 
   // Once a tick; sends what is due, the standing degraded reasons added. False: nothing was due.
   bool tell(protocol::PoseMessage message, Time deadline, telemetry::CycleCounters& counters);
+
+  // After a group that was due: how the next camera stands with the light, if that is due, too. One
+  // that does not go out is owed.
+  void tell_light(std::span<const exposure::CameraLight> cameras, Time deadline,
+                  telemetry::CycleCounters& counters);
 
   // A group out of turn, the last one: nothing but the state.
   void part(const protocol::PoseMessage& message, Time deadline,
@@ -59,6 +67,8 @@ class Broadcaster {
   protocol::CommandReader commands_;
   std::uint8_t sequence_;  // of the next group
   bool identity_wanted_ = true;
+  std::size_t lit_camera_ = 0;  // whose light is told next
+  std::uint8_t lights_ = 0;     // told so far, modulo 256
   std::optional<protocol::CommandReader::Verdict> pending_;
   protocol::GroupFrames frames_;
 };

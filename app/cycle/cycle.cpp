@@ -1,5 +1,7 @@
 #include "app/cycle/cycle.h"
 
+#include <span>
+
 #include "app/cycle/pose_report.h"
 
 namespace dottrack::cycle {
@@ -96,6 +98,9 @@ void Cycle::broadcast() {
   const SentPose sent = chosen_pose(record_, choice, ahead, now);
   if (broadcaster_.tell(pose_report(record_, sent, rig, told_, now), deadline, record_.counters)) {
     told_ = before;
+    // The light is that of the tick before: exposure is decided after the pose is out.
+    broadcaster_.tell_light(std::span(record_.light).first(settings_.cameras), deadline,
+                            record_.counters);
   }
   obey(deadline);
   record_.sent = parts_.clock.now();

@@ -24,7 +24,8 @@ std::array<std::string, protocol::kParts> names_of(const CanUse& use) {
           "Velocity, Rates",
           "Cameras",
           fmt::format("Dot1Position to Dot{}Detail", use.dots),
-          "Version, Configuration"};
+          "Version, Configuration",
+          "Light"};
 }
 
 std::string part_line(const std::string& name, const PartLoad& part, double group_s) {

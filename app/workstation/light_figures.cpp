@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "app/workstation/sim_run.h"
 #include "host_sim/scenarios/scenario_file.h"
@@ -14,23 +13,24 @@
 namespace dottrack::workstation {
 namespace {
 
-constexpr int kSaturated_px = 2;  // of a camera's dots: a glint
-constexpr double kTarget_dn = 191.0;
-constexpr double kNearTarget = 1.3;  // as bright as it should be
-constexpr double kHeld_s = 0.4;      // so long it has to stay so
 constexpr std::array kScenarios = {"drive", "lights", "sun_blooming", "iris_drift", "iris_stuck"};
-
-bool near_target(int peak_dn) {
-  return peak_dn < kNearTarget * kTarget_dn && peak_dn * kNearTarget > kTarget_dn;
-}
 
 std::string seconds(double s) {
   return s < 0.0 ? "never" : fmt::format("{:.1f}", s);
 }
 
+LightScript script_of(const host_sim::Scene& scene) {
+  LightScript script{.cameras = {}, .frame_rate_hz = scene.frame_rate_hz, .changes_s = {}};
+  for (const host_sim::SceneCamera& camera : scene.cameras) script.cameras.push_back(camera.name);
+  for (const host_sim::LightChange& change : scene.world.light.changes) {
+    if (change.at_s > 0.0) script.changes_s.push_back(change.at_s + change.over_s);
+  }
+  return script;
+}
+
 Result<LightFigures> run(const host_sim::Scene& scene, host_sim::SceneRenderer& renderer,
                          const LightRunOptions& options, const std::string& what) {
-  LightTally tally(scene);
+  LightTally tally(script_of(scene));
   SimOptions sim;
   sim.out = options.out / what;
   sim.pictures = false;
@@ -63,74 +63,6 @@ std::string row(const std::string& scenario, const char* control, const LightFig
 }
 
 }  // namespace
-
-LightTally::LightTally(const host_sim::Scene& scene) : scene_(scene), changes_s_{0.0} {
-  for (const host_sim::LightChange& change : scene.world.light.changes) {
-    if (change.at_s > 0.0) changes_s_.push_back(change.at_s + change.over_s);
-  }
-  std::sort(changes_s_.begin(), changes_s_.end());
-}
-
-void LightTally::count_cameras(const telemetry::CycleRecord& record) {
-  int judged = 0;
-  int off = 0;
-  bool saturated = false;
-  for (std::size_t i = 0; i < scene_.cameras.size(); ++i) {
-    figures_.bloomed_views += record.result.cameras[i].bloomed;
-    if (!record.result.cameras[i].used) continue;
-    const exposure::CameraLight& light = record.light[i];
-    ++judged;
-    if (!near_target(light.peak_dn)) ++off;
-    if (light.saturated_px <= kSaturated_px) continue;
-    saturated = true;
-    ++figures_.saturated;
-  }
-  settled_.push_back(judged > 0 && !saturated && 8 * off <= judged);
-}
-
-void LightTally::note_faults(const telemetry::CycleRecord& record) {
-  for (std::size_t i = 0; i < scene_.cameras.size(); ++i) {
-    if (!record.unhealthy_irises.contains(i) || named_.contains(i)) continue;
-    named_.insert(i);
-    figures_.faults.push_back(
-        fmt::format("{} at {:.1f} s", scene_.cameras[i].name,
-                    static_cast<double>(figures_.ticks) / scene_.frame_rate_hz));
-  }
-}
-
-void LightTally::do_write(const telemetry::CycleRecord& record) {
-  count_cameras(record);
-  note_faults(record);
-  ++figures_.ticks;
-  locked_ = locked_ || record.result.has_pose;
-  const bool lost = locked_ && !record.result.has_pose;
-  gap_ = lost ? gap_ + 1 : 0;
-  figures_.without_pose += lost ? 1 : 0;
-  figures_.longest_gap = std::max(figures_.longest_gap, gap_);
-}
-
-LightFigures LightTally::figures() const {
-  LightFigures figures = figures_;
-  const auto tick_of = [&](double s) {
-    return std::min(static_cast<std::size_t>(std::ceil(s * scene_.frame_rate_hz)), settled_.size());
-  };
-  const auto held = static_cast<std::size_t>(std::lround(kHeld_s * scene_.frame_rate_hz));
-  for (std::size_t i = 0; i < changes_s_.size(); ++i) {
-    const std::size_t from = tick_of(changes_s_[i]);
-    const std::size_t to = i + 1 < changes_s_.size() ? tick_of(changes_s_[i + 1]) : settled_.size();
-    if (from + held >= to) continue;
-    std::size_t run = 0;
-    std::size_t tick = from;
-    for (; tick < to && run < held; ++tick) run = settled_[tick] ? run + 1 : 0;
-    if (run < held) {
-      figures.settled_after_s = -1.0;
-      return figures;
-    }
-    const double after_s = static_cast<double>(tick - held - from) / scene_.frame_rate_hz;
-    figures.settled_after_s = std::max(figures.settled_after_s, after_s);
-  }
-  return figures;
-}
 
 Result<std::vector<LightComparison>> compare_light(const LightRunOptions& options) {
   std::vector<LightComparison> comparisons;

@@ -155,9 +155,10 @@ class Overlay {
 
   // What the camera was set to for a picture to come, and how bright its dots are in this one.
   static std::string light_line(const exposure::CameraLight& light) {
-    return fmt::format("light {}  {:.3f} ms  gain {:.2f}  iris {:.2f}  peak {} dn",
+    return fmt::format("light {}  {:.3f} ms  gain {:.2f}  iris {:.2f} {}  peak {} dn",
                        exposure::to_string(light.state), 1e3 * to_seconds(light.setting.exposure),
-                       light.setting.gain, light.opening, light.peak_dn);
+                       light.setting.gain, light.opening, exposure::to_string(light.iris),
+                       light.peak_dn);
   }
 
   void draw_legend() {

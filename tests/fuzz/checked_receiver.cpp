@@ -12,6 +12,7 @@ namespace dottrack::fuzz {
 namespace {
 
 constexpr int kUntouched = 0x5A;
+constexpr std::uint32_t kLight = 19;
 constexpr std::uint64_t kClockPeriod_us = std::uint64_t{1} << 48U;
 
 bool same(const dottrack_counts& a, const dottrack_counts& b) {
@@ -28,10 +29,10 @@ bool is_of_unit(const dottrack_settings& settings, const dottrack_frame& frame) 
          frame.id - settings.base_id < DOTTRACK_IDENTIFIERS;
 }
 
-// Not Version, Configuration, Reply and Command, which stand for themselves.
+// Not Version, Configuration, Reply, Command and Light, which stand for themselves.
 bool is_grouped(const dottrack_settings& settings, const dottrack_frame& frame) {
   const std::uint32_t offset = frame.id - settings.base_id;
-  return offset != 14 && offset != 15 && offset != 17 && offset != 18;
+  return offset != 14 && offset != 15 && offset != 17 && offset != 18 && offset != kLight;
 }
 
 }  // namespace
@@ -47,11 +48,14 @@ void CheckedReceiver::push(const dottrack_frame& frame) {
   std::memset(&pose, kUntouched, sizeof pose);
   std::memset(&untouched, kUntouched, sizeof untouched);
   const dottrack_counts before = receiver_.counts;
+  Lights lights{};
+  std::memcpy(lights.data(), receiver_.light, sizeof receiver_.light);
   const dottrack_verdict verdict = dottrack_receiver_push(&receiver_, &frame, now_us_, &pose);
   require(verdict >= DOTTRACK_FOREIGN && verdict <= DOTTRACK_OTHER_VERSION, "a verdict is known");
   ++given_[verdict];
   check_frame(frame, verdict);
   check_repetition(frame, verdict);
+  check_lights(lights, frame, verdict);
   last_ = frame;
   check_counts(before, verdict);
   check_totals();
@@ -124,6 +128,25 @@ void CheckedReceiver::check_counts(const dottrack_counts& before, dottrack_verdi
           "repeated frames and groups count");
   require(verdict != DOTTRACK_OTHER_VERSION || one_more(&Counts::other_version),
           "frames of another version count");
+}
+
+// Only a sound Light changes what is known of a camera, and of one camera alone; numbers are within
+// what the message can say, or negative.
+void CheckedReceiver::check_lights(const Lights& before, const dottrack_frame& frame,
+                                   dottrack_verdict verdict) const {
+  const bool of_light = verdict == DOTTRACK_WAITING || verdict == DOTTRACK_INCOMPLETE;
+  const bool told = of_light && frame.id - receiver_.settings.base_id == kLight;
+  unsigned changed = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const dottrack_light& light = receiver_.light[i];
+    changed += std::memcmp(&before[i], &light, sizeof light) != 0 ? 1U : 0U;
+    require(light.exposure_s <= 1.0486 && light.gain <= 40.95 && light.opening <= 1.0,
+            "a light is within its ranges");
+    require(!light.known || dottrack_iris_text(light.iris)[0] != 'u', "an iris has a word");
+  }
+  require(changed <= (told ? 1U : 0U), "a sound light changes what is known of one camera");
+  const std::size_t camera = frame.data[2] & 0xFU;
+  require(!told || receiver_.light[camera].arrival_us == now_us_, "a light arrives with its frame");
 }
 
 void CheckedReceiver::check_totals() const {

@@ -28,6 +28,9 @@ class CheckedReceiver {
   void check_frame(const dottrack_frame& frame, dottrack_verdict verdict) const;
   void check_repetition(const dottrack_frame& frame, dottrack_verdict verdict) const;
   void check_counts(const dottrack_counts& before, dottrack_verdict verdict) const;
+  using Lights = std::array<dottrack_light, DOTTRACK_MAX_CAMERAS>;
+  void check_lights(const Lights& before, const dottrack_frame& frame,
+                    dottrack_verdict verdict) const;
   void check_totals() const;
   void check_pose(const dottrack_pose& pose, dottrack_verdict verdict);
   void check_order(const dottrack_pose& pose);

@@ -121,8 +121,8 @@ class Session {
     push(command);
     dottrack_reply reply{};
     dottrack_read_reply(&receiver_.settings(), &one_of_last(), &reply);
-    for (const auto text :
-         {dottrack_state_text, dottrack_reason_text, dottrack_health_text, dottrack_result_text}) {
+    for (const auto text : {dottrack_state_text, dottrack_reason_text, dottrack_health_text,
+                            dottrack_result_text, dottrack_light_text, dottrack_iris_text}) {
       require(text(number) != nullptr, "there is a word for every number");
     }
     require(dottrack_degraded_text(number) != nullptr, "there is a word for every bit");

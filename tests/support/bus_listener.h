@@ -1,6 +1,7 @@
 #pragma once
 // A vehicle's ear: CAN frames in, what its receiver made of them out.
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -34,6 +35,7 @@ class BusListener {
   const std::vector<dottrack_pose>& poses() const { return poses_; }  // of fresh groups
   const dottrack_counts& counts() const { return receiver_.counts; }
   const dottrack_unit& unit() const { return receiver_.unit; }
+  const dottrack_light& light(std::size_t camera) const { return receiver_.light[camera]; }
 
  private:
   dottrack_receiver receiver_{};

@@ -22,4 +22,18 @@ std::string_view to_string(LightState state) {
   return "unknown";
 }
 
+std::string_view to_string(IrisCondition condition) {
+  switch (condition) {
+    case IrisCondition::automatic:
+      return "automatic";
+    case IrisCondition::ok:
+      return "ok";
+    case IrisCondition::at_end:
+      return "at_end";
+    case IrisCondition::fault:
+      return "fault";
+  }
+  return "unknown";
+}
+
 }  // namespace dottrack::exposure

@@ -21,11 +21,22 @@ enum class LightState : std::uint8_t {
 
 std::string_view to_string(LightState state);
 
+// The numbers go out on CAN and never change meaning.
+enum class IrisCondition : std::uint8_t {
+  automatic = 0,  // the lens's own control has it, or there is none that takes orders
+  ok = 1,         // set by the unit
+  at_end = 2,     // goes no further the way it was last sent
+  fault = 3,      // does not answer, or its movements do not change the light
+};
+
+std::string_view to_string(IrisCondition condition);
+
 struct CameraLight {
   LightState state = LightState::off;
   ExposureSetting setting;  // as last accepted by the camera
   double opening = 1.0;     // of the iris, as it says of itself
-  bool automatic = true;    // the lens's own auto-iris is in charge
+  IrisCondition iris = IrisCondition::automatic;
+  bool automatic = true;  // the lens's own auto-iris is in charge
   // Of the dots seen in this tick; of the image's brightest parts where none is.
   int peak_dn = 0;
   int contrast_dn = 0;   // of the brightest dot to its surround

@@ -50,6 +50,8 @@ class IrisLoop {
   bool present() const { return present_; }
   // Does not answer, or moves nothing.
   bool fault() const { return fault_; }
+  // It was sent further and did not go, and has not been sent the other way since.
+  bool ended() const { return present_ && !fault_ && ended_ != IrisWish::none; }
   bool exercising() const { return exercise_ != Exercise::none; }
   // It was sent further in the direction that is wished for, and did not go.
   bool at_end(IrisWish wish) const {

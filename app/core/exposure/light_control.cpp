@@ -216,6 +216,12 @@ LightState LightControl::state_of(const Camera& camera, const LightSettings& set
   return camera.exposure.content() ? LightState::steady : LightState::settling;
 }
 
+IrisCondition LightControl::condition_of(const Camera& camera, const IrisView& iris) {
+  if (!iris.healthy || camera.iris.fault()) return IrisCondition::fault;
+  if (iris.automatic || !camera.iris.present()) return IrisCondition::automatic;
+  return camera.iris.ended() ? IrisCondition::at_end : IrisCondition::ok;
+}
+
 void LightControl::report(Camera& camera, const IrisView& iris) const {
   const LightReading& reading = camera.reading;
   CameraLight& light = camera.light;
@@ -223,6 +229,7 @@ void LightControl::report(Camera& camera, const IrisView& iris) const {
   light.setting = camera.exposure.setting();
   light.opening = iris.opening;
   light.automatic = iris.automatic;
+  light.iris = condition_of(camera, iris);
   const bool dots = reading.dots > 0;
   light.peak_dn = dots ? reading.brightest.peak_dn : reading.image.high_dn;
   light.contrast_dn = dots ? reading.brightest.peak_dn - reading.brightest.surround_dn

@@ -69,6 +69,7 @@ class LightControl {
   static IrisWish wish_of(const Camera& camera, const LightSettings& settings);
   IrisLight iris_light(const Camera& camera, const std::optional<Brightness>& seen) const;
   static LightState state_of(const Camera& camera, const LightSettings& settings);
+  static IrisCondition condition_of(const Camera& camera, const IrisView& iris);
   void remember(Camera& camera) const;
   void report(Camera& camera, const IrisView& iris) const;
   bool is_spread(const Camera& camera) const;

@@ -90,7 +90,8 @@ std::array<PartLoad, kParts> part_loads(const Addressing& addressing, const Rate
                                      part(2, rates.motion_every),
                                      part(1, rates.cameras_every),
                                      part(2 * dots, rates.dots_every),
-                                     part(2, rates.identity_every)};
+                                     part(2, rates.identity_every),
+                                     part(1, rates.light_every)};
   if (addressing.fd) {
     const FrameShape pose{.extended = addressing.extended, .fd = true, .bytes = 64};
     parts[0] = {.frames = 1, .every = 1, .time_s = frame_time_s(pose, bit_rates)};

@@ -18,6 +18,7 @@ struct Rates {
   unsigned cameras_every = 10;
   unsigned dots_every = 10;
   unsigned identity_every = 30;
+  unsigned light_every = 0;  // the next camera's, one after another
 
   bool operator==(const Rates&) const = default;
 };
@@ -48,9 +49,9 @@ struct PartLoad {
   double time_s = 0.0;
 };
 
-// In the order of Rates: pose, covariance, motion, cameras, dots, identity. In FD the covariance is
-// part of the pose. Of a target with `dots` dots.
-inline constexpr std::size_t kParts = 6;
+// In the order of Rates: pose, covariance, motion, cameras, dots, identity, light. In FD the
+// covariance is part of the pose. Of a target with `dots` dots.
+inline constexpr std::size_t kParts = 7;
 std::array<PartLoad, kParts> part_loads(const Addressing& addressing, const Rates& rates,
                                         const BitRates& bit_rates, unsigned dots);
 

@@ -138,6 +138,26 @@ std::string unit_object(const dottrack_unit& unit) {
   return object.text();
 }
 
+std::string light_object(std::size_t camera, const dottrack_light& light) {
+  Object object;
+  object.add_count("camera", camera + 1)
+      .add_word("state", dottrack_light_text(light.state))
+      .add_word("iris", dottrack_iris_text(light.iris))
+      .add_known("exposure_s", light.exposure_s >= 0.0, light.exposure_s)
+      .add_known("gain", light.gain >= 0.0, light.gain)
+      .add_known("opening", light.opening >= 0.0, light.opening);
+  return object.text();
+}
+
+// Of the cameras that anything was told of.
+std::string light_list(std::span<const dottrack_light> lights) {
+  std::string list;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (lights[i].known) list += (list.empty() ? "" : ",") + light_object(i, lights[i]);
+  }
+  return list.empty() ? "null" : "[" + list + "]";
+}
+
 void add_counts(Object& object, const dottrack_counts& counts) {
   object.add_count("frames", counts.frames)
       .add_count("fresh", counts.fresh)
@@ -188,7 +208,8 @@ std::string summary_object(const Overview& overview) {
       .add_number("max_age_s", statistics.max_age_s())
       .add_number("rms_jitter_s", statistics.rms_jitter_s())
       .add_number("max_jitter_s", statistics.max_jitter_s())
-      .add("unit", unit_object(overview.unit));
+      .add("unit", unit_object(overview.unit))
+      .add("light", light_list(overview.lights));
   return object.text();
 }
 

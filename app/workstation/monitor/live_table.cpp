@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 #include "app/workstation/monitor/pose_words.h"
@@ -56,7 +57,17 @@ std::string quality(const dottrack_pose& pose) {
   return text;
 }
 
-void add_group_rows(std::vector<std::string>& lines, const TableContent& content) {
+// Two rows: the states, and the irises.
+void add_light_rows(std::vector<std::string>& lines, std::span<const dottrack_light> lights) {
+  const std::string words = light_words(lights);
+  if (words.empty()) return;
+  const std::size_t end = words.find(';');
+  lines.push_back(row("  light", words.substr(0, end)));
+  lines.push_back(row("", words.substr(end + 2)));
+}
+
+void add_group_rows(std::vector<std::string>& lines, const TableContent& content,
+                    std::span<const dottrack_light> lights) {
   const dottrack_pose& pose = content.pose;
   lines.push_back(row("state", fmt::format("{}, {}", dottrack_state_text(pose.state),
                                            dottrack_reason_text(pose.reason))));
@@ -67,6 +78,7 @@ void add_group_rows(std::vector<std::string>& lines, const TableContent& content
   lines.push_back(row("cameras", fmt::format("used {}", camera_numbers(pose.cameras_used))));
   lines.push_back(row(
       "  health", content.cameras.has_cameras ? health_words(content.cameras) : "not told yet"));
+  add_light_rows(lines, lights);
   lines.push_back(
       row("dots", fmt::format("{} used; reset count {}", pose.dots_used, pose.reset_count)));
 }
@@ -94,7 +106,7 @@ std::vector<std::string> table_lines(const TableContent& content, const Overview
                                      Duration now) {
   std::vector<std::string> lines{content.title};
   lines.push_back(row("verdict", content.verdict));
-  if (content.has_pose) add_group_rows(lines, content);
+  if (content.has_pose) add_group_rows(lines, content, overview.lights);
   add_count_rows(lines, overview, now);
   lines.push_back(content.notice);
   for (std::string& line : lines) line.resize(std::min(line.size(), kWidth));

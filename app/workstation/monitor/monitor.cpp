@@ -18,7 +18,7 @@ Monitor::Monitor(const dottrack_settings& settings, std::vector<std::unique_ptr<
 }
 
 Overview Monitor::overview() const {
-  return {statistics_, receiver_.counts, receiver_.unit, unreadable_lines_};
+  return {statistics_, receiver_.counts, receiver_.unit, unreadable_lines_, receiver_.light};
 }
 
 void Monitor::run(FrameSource& source, const MonitorLimits& limits,

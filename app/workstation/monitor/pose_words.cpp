@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace dottrack::monitor {
 namespace {
@@ -14,6 +18,25 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 bool has(std::uint16_t bits, unsigned bit) {
   return ((unsigned{bits} >> bit) & 1U) != 0;
+}
+
+// The cameras of each word, the words in the order of their first cameras.
+template <class WordOf>
+std::string by_word(std::span<const dottrack_light> lights, WordOf word_of) {
+  std::vector<std::pair<std::string_view, std::uint16_t>> cameras;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (!lights[i].known) continue;
+    const std::string_view word = word_of(lights[i]);
+    auto found = std::find_if(cameras.begin(), cameras.end(),
+                              [&](const auto& entry) { return entry.first == word; });
+    if (found == cameras.end()) found = cameras.insert(found, {word, std::uint16_t{0}});
+    found->second = static_cast<std::uint16_t>(found->second | (1U << i));
+  }
+  std::string words;
+  for (const auto& [word, numbers] : cameras) {
+    words += fmt::format("{}{} {}", words.empty() ? "" : ", ", word, camera_numbers(numbers));
+  }
+  return words;
 }
 
 }  // namespace
@@ -74,8 +97,9 @@ std::string camera_numbers(std::uint16_t cameras) {
 
 std::string health_words(const dottrack_pose& pose) {
   constexpr std::uint8_t kAbsent = 0;
+  constexpr std::uint8_t kMoved = 7;
   std::string words;
-  for (std::uint8_t health = kAbsent + 1; health < 7; ++health) {
+  for (std::uint8_t health = kAbsent + 1; health <= kMoved; ++health) {
     unsigned cameras = 0;
     for (unsigned i = 0; i < DOTTRACK_MAX_CAMERAS; ++i) {
       if (pose.camera_health[i] == health) cameras |= 1U << i;
@@ -85,6 +109,15 @@ std::string health_words(const dottrack_pose& pose) {
                          camera_numbers(static_cast<std::uint16_t>(cameras)));
   }
   return words.empty() ? "-" : words;
+}
+
+std::string light_words(std::span<const dottrack_light> lights) {
+  const std::string states =
+      by_word(lights, [](const dottrack_light& light) { return dottrack_light_text(light.state); });
+  if (states.empty()) return {};
+  return states + "; iris " + by_word(lights, [](const dottrack_light& light) {
+           return dottrack_iris_text(light.iris);
+         });
 }
 
 std::string verdict_words(dottrack_verdict verdict, const dottrack_pose* pose) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "app/core/protocol/receiver/dottrack_receiver.h"
@@ -35,6 +36,10 @@ std::string camera_numbers(std::uint16_t cameras);
 
 // "used 1-4, no_frame 5"; cameras that the rig does not have are left out.
 std::string health_words(const dottrack_pose& pose);
+
+// "steady 1-6, too_dark 7; iris ok 1-6, at_end 7"; cameras that nothing was told of are left out.
+// Empty where that is all of them.
+std::string light_words(std::span<const dottrack_light> lights);
 
 // "fresh"; of a group that is sound but has no pose, "fresh, no pose".
 std::string verdict_words(dottrack_verdict verdict, const dottrack_pose* pose);

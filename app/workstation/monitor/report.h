@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "app/core/protocol/receiver/dottrack_receiver.h"
@@ -31,6 +32,7 @@ struct Overview {
   const dottrack_counts& counts;
   const dottrack_unit& unit;
   std::uint64_t unreadable_lines = 0;
+  std::span<const dottrack_light> lights = {};  // camera by camera
 };
 
 // Gets everything in the order in which it happened.

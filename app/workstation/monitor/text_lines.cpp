@@ -63,6 +63,8 @@ std::string statistics_text(const Overview& overview) {
       1e3 * s.mean_age_s(), 1e3 * s.max_age_s(), 1e3 * s.rms_jitter_s(), 1e3 * s.max_jitter_s(),
       s.silences(), c.restarts);
   text += fmt::format("unit: {}\n", unit_words(overview.unit));
+  const std::string light = light_words(overview.lights);
+  if (!light.empty()) text += fmt::format("light: {}\n", light);
   if (overview.unreadable_lines > 0) {
     text += fmt::format("lines of the log that are no frames: {}\n", overview.unreadable_lines);
   }

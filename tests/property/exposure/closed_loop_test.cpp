@@ -10,6 +10,7 @@
 namespace dottrack::exposure_test {
 namespace {
 
+using exposure::IrisCondition;
 using exposure::LightSettings;
 using exposure::LightState;
 
@@ -180,6 +181,8 @@ TEST(LightControlClosedLoop, NamesAnIrisThatIsStuckAndNoOther) {
       if (named_after < 0 && stuck.light().state == LightState::iris_fault) named_after = tick;
     }
     ASSERT_GE(named_after, 0) << "plant " << seed;
+    EXPECT_EQ(stuck.light().iris, IrisCondition::fault);
+    EXPECT_NE(sound.light().iris, IrisCondition::fault);
     EXPECT_TRUE(stuck.automatic()) << "given back to its lens";
   }
 }
@@ -237,10 +240,12 @@ TEST(LightControlClosedLoop, SaysWhenNothingIsLeftToDo) {
   LitCamera dark(plant, settings());
   watch(dark, 200);
   EXPECT_EQ(dark.light().state, LightState::too_dark);
+  EXPECT_EQ(dark.light().iris, IrisCondition::at_end);
   plant.light_dn_per_s = 3e8;
   LitCamera bright(plant, settings());
   watch(bright, 1500);
   EXPECT_EQ(bright.light().state, LightState::too_bright);
+  EXPECT_EQ(bright.light().iris, IrisCondition::at_end);
 }
 
 // Nothing known of the dots: some tick or other shows them well, whatever the light.

@@ -46,13 +46,25 @@ TEST(BusLoad, InFdThePoseAndItsCovarianceAreOneFrame) {
   EXPECT_NEAR(microseconds(load.fullest_group), 409.5 + 13 * kFrame_bits / 0.5, kNanosecond_us);
 }
 
+// However many cameras there are: one after another.
+TEST(BusLoad, LightIsOneFrameMore) {
+  const Rates rates{.light_every = 2};
+  const BusLoad load = bus_load({}, rates, {}, 8, milliseconds(100));
+  const BusLoad without = bus_load({}, {}, {}, 8, milliseconds(100));
+  EXPECT_NEAR(load.average - without.average, kFrame_bits / 2.0 * 10.0 / 500e3, 1e-12);
+  EXPECT_EQ(load.fullest_frames, without.fullest_frames + 1);
+  EXPECT_NEAR(microseconds(load.fullest_group - without.fullest_group), kFrame_bits / 0.5,
+              kNanosecond_us);
+}
+
 TEST(BusLoad, OfWhatNeverGoesOutIsNothing) {
   const Rates pose_alone{.pose_every = 4,
                          .covariance_every = 0,
                          .motion_every = 0,
                          .cameras_every = 0,
                          .dots_every = 0,
-                         .identity_every = 0};
+                         .identity_every = 0,
+                         .light_every = 0};
   const BusLoad load = bus_load({}, pose_alone, {}, 16, milliseconds(10));
   EXPECT_DOUBLE_EQ(load.average, 6 * kFrame_bits / 500e3 / 0.040);
   EXPECT_EQ(load.fullest_frames, 6U);

@@ -32,7 +32,8 @@ constexpr std::string_view kCan =
     "cameras_every = 0\n"          // 41
     "dots_every = 15\n"            // 42
     "identity_every = 255\n"       // 43
-    "commands = true\n";           // 44
+    "commands = true\n"            // 44
+    "light_every = 16\n";          // 45
 
 std::string can_rig() {
   return std::string(kGoodRig) + std::string(kCan);
@@ -55,7 +56,8 @@ TEST(CanConfigFile, ReadsEveryKey) {
                                    .motion_every = 3,
                                    .cameras_every = 0,
                                    .dots_every = 15,
-                                   .identity_every = 255},
+                                   .identity_every = 255,
+                                   .light_every = 16},
                          .commands = true};
   EXPECT_EQ(load_or_fail(RigFolder(), can_rig()).unit.can, wanted);
 }
@@ -63,6 +65,21 @@ TEST(CanConfigFile, ReadsEveryKey) {
 TEST(CanConfigFile, ReadsTheRateOfTheCovariance) {
   const std::string text = std::string(kGoodRig) + "[can]\ncovariance_every = 7\n";
   EXPECT_EQ(load_or_fail(RigFolder(), text).unit.can.rates.covariance_every, 7U);
+}
+
+unsigned light_every(const std::string& more) {
+  return load_or_fail(RigFolder(), std::string(kGoodRig) + more).unit.can.rates.light_every;
+}
+
+TEST(CanConfigFile, TheLightIsToldWhereItIsControlledUnlessTheFileSaysOtherwise) {
+  const std::string controlled = "\n[light]\ncontrol = true\n";
+  EXPECT_EQ(light_every(""), 0U);
+  EXPECT_EQ(light_every("\n[light]\ncontrol = false\n"), 0U);
+  EXPECT_EQ(light_every(controlled), 1U);
+  EXPECT_EQ(light_every("\n[can]\ncommands = true\n" + controlled), 1U);
+  EXPECT_EQ(light_every("\n[can]\nlight_every = 5\n" + controlled), 5U);
+  EXPECT_EQ(light_every("\n[can]\nlight_every = 0\n" + controlled), 0U);
+  EXPECT_EQ(light_every("\n[can]\nlight_every = 3\n"), 3U);
 }
 
 TEST(CanConfigFile, TakesTheLastIdentifiers) {
@@ -91,10 +108,11 @@ const std::string kDataWords =
 INSTANTIATE_TEST_SUITE_P(
     Mistakes, CanConfigRefuses,
     testing::Values(
-        Mistake{"Key", "commands", "listen",
-                ":44: unknown key \"listen\" in [can]; expected one of interface, base_id, "
-                "extended, fd, bit_rate, data_bit_rate, max_load, pose_every, covariance_every, "
-                "motion_every, cameras_every, dots_every, identity_every, commands, pose"},
+        Mistake{
+            "Key", "commands", "listen",
+            ":44: unknown key \"listen\" in [can]; expected one of interface, base_id, "
+            "extended, fd, bit_rate, data_bit_rate, max_load, pose_every, covariance_every, "
+            "motion_every, cameras_every, dots_every, identity_every, light_every, commands, pose"},
         Mistake{"BaseIdWithoutExtended", "extended = true\n", "",
                 ":33: base_id is 419364864; expected a whole number from 0 to 0x7C0, with extended "
                 "= true to 0x1FFFFFC0"},
@@ -129,6 +147,8 @@ INSTANTIATE_TEST_SUITE_P(
                 ":42: dots_every is 16" + kStandsStill},
         Mistake{"IdentityEvery240", "identity_every = 255", "identity_every = 240",
                 ":43: identity_every is 240" + kStandsStill},
+        Mistake{"LightTooSeldom", "light_every = 16", "light_every = 256",
+                ":45: light_every is 256" + kEveryWords},
         Mistake{"IdentityTooSeldom", "identity_every = 255", "identity_every = 256",
                 ":43: identity_every is 256" + kEveryWords}),
     name_of);

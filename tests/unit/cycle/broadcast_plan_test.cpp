@@ -59,6 +59,18 @@ TEST(BroadcastPlan, AGroupThatWasCutShortIsMadeUpForInTheNextTick) {
   EXPECT_FALSE(plan.next(tracking()));
 }
 
+TEST(BroadcastPlan, LightWaitsForAWholeGroup) {
+  protocol::Rates asked;
+  asked.light_every = 1;
+  BroadcastPlan plan(asked);
+  ASSERT_TRUE(plan.next(tracking()));
+  plan.sent_whole(false);
+  EXPECT_FALSE(plan.light_due());
+  ASSERT_TRUE(plan.next(tracking()));
+  plan.sent_whole(true);
+  EXPECT_TRUE(plan.light_due());
+}
+
 TEST(BroadcastPlan, EveryMessageHasARateOfItsOwn) {
   protocol::Rates asked;
   asked.covariance_every = 2;
@@ -66,8 +78,9 @@ TEST(BroadcastPlan, EveryMessageHasARateOfItsOwn) {
   asked.cameras_every = 0;
   asked.dots_every = 5;
   asked.identity_every = 6;
+  asked.light_every = 16;
   BroadcastPlan plan(asked);
-  int covariance = 0, motion = 0, cameras = 0, dots = 0, identity = 0;
+  int covariance = 0, motion = 0, cameras = 0, dots = 0, identity = 0, light = 0;
   for (int i = 0; i < 60; ++i) {
     const auto parts = plan.next(tracking());
     ASSERT_TRUE(parts);
@@ -77,12 +90,14 @@ TEST(BroadcastPlan, EveryMessageHasARateOfItsOwn) {
     dots += parts->dots ? 1 : 0;
     identity += plan.identity_due() ? 1 : 0;
     plan.sent_whole(true);
+    light += plan.light_due() ? 1 : 0;
   }
   EXPECT_EQ(covariance, 30);
   EXPECT_EQ(motion, 20);
   EXPECT_EQ(cameras, 0) << "never";
   EXPECT_EQ(dots, 12);
   EXPECT_EQ(identity, 10);
+  EXPECT_EQ(light, 4);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST(Dbc, HasTheMessagesOfTheDefaultBaseAndNoOther) {
     EXPECT_FALSE(message.comment.empty()) << message.name;
   }
   std::set<std::uint32_t> expected;
-  for (std::uint32_t i = 0; i < 19; ++i) expected.insert(kDefaultBaseId + i);
+  for (std::uint32_t i = 0; i < 20; ++i) expected.insert(kDefaultBaseId + i);
   for (std::uint32_t i = 32; i < kIdentifiers; ++i) expected.insert(kDefaultBaseId + i);
   EXPECT_EQ(ids, expected);
 }
@@ -86,8 +86,8 @@ std::pair<std::int64_t, std::int64_t> raw_range(const DbcSignal& signal) {
 
 // A range may be narrower than its bits; never wider, and never past the marker.
 TEST(Dbc, RangesAreWithinWhatTheBitsCanSay) {
-  const std::set<std::string> narrower{"DotsUsed", "DotsFollow", "Cameras", "Unused",
-                                       "QW",       "QX",         "QY",      "QZ"};
+  const std::set<std::string> narrower{"DotsUsed", "DotsFollow", "Cameras", "Unused", "QW",
+                                       "QX",       "QY",         "QZ",      "Opening"};
   for (const DbcMessage& message : layout_file().messages) {
     for (const DbcSignal& signal : message.signals) {
       const auto [least, most] = raw_range(signal);
@@ -171,6 +171,14 @@ TEST(Dbc, NamesStatesReasonsAndResultsAsTheProgramDoes) {
     expect_names<core::Reason>(layout_of(message).signal("Reason")->values);
   }
   expect_names<CommandResult>(layout_of("Reply").signal("Result")->values);
+}
+
+TEST(Dbc, NamesLightAndIris) {
+  const Values states{{0, "off"},      {1, "searching"},  {2, "settling"},  {3, "steady"},
+                      {4, "too_dark"}, {5, "too_bright"}, {6, "iris_fault"}};
+  EXPECT_EQ(layout_of("Light").signal("LightState")->values, states);
+  const Values irises{{0, "automatic"}, {1, "ok"}, {2, "at_end"}, {3, "fault"}};
+  EXPECT_EQ(layout_of("Light").signal("Iris")->values, irises);
 }
 
 TEST(Dbc, NamesCommandsInBothDirections) {

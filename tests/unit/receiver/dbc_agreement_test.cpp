@@ -256,6 +256,41 @@ TEST(ReceiverAgreesWithTheDbc, AboutCommandsAndReplies) {
   }
 }
 
+void compare_light(const dottrack_frame& frame) {
+  Listener listener;
+  ASSERT_EQ(listener.push(frame, 77), DOTTRACK_WAITING);
+  Said said({frame});
+  const auto camera = static_cast<unsigned>(said.physical("Camera"));
+  ASSERT_LT(camera, 16U);
+  const dottrack_light& light = listener.light(camera);
+  ASSERT_TRUE(light.known);
+  ASSERT_EQ(said.physical("LightState"), light.state);
+  ASSERT_EQ(said.physical("Iris"), light.iris);
+  const auto of = [&](const char* name, double most) {
+    const bool there = said.available(name) && said.physical(name) <= most + 1e-9;
+    return there ? said.physical(name) : -1.0;
+  };
+  ASSERT_DOUBLE_EQ(of("Exposure", 1.048574), light.exposure_s);
+  ASSERT_DOUBLE_EQ(of("Gain", 40.94), light.gain);
+  ASSERT_DOUBLE_EQ(of("Opening", 1.0), light.opening);
+  ASSERT_EQ(said.unused(), 1U);  // Sequence
+}
+
+TEST(ReceiverAgreesWithTheDbc, AboutLight) {
+  std::mt19937_64 random(4);
+  unsigned none = 0;
+  for (unsigned i = 0; i < 2000; ++i) {
+    dottrack_frame frame = random_frame(random, kLight);
+    const bool blank = i % 8 == 0;
+    if (blank) put_bits(frame, 25, 39, ~std::uint64_t{0});
+    seal(frame);
+    none += blank ? 1U : 0U;
+    compare_light(frame);
+    if (HasFailure()) return;
+  }
+  EXPECT_EQ(none, 250U);
+}
+
 TEST(ReceiverAgreesWithTheDbc, AboutTheWordsOfEveryNumber) {
   std::size_t words = 0;
   const auto compare = [&](const char* message, const char* signal, auto text) {
@@ -272,7 +307,9 @@ TEST(ReceiverAgreesWithTheDbc, AboutTheWordsOfEveryNumber) {
   compare("DOTTRACK_Status", "PoseKind", dottrack_kind_text);
   compare("DOTTRACK_FdPose", "PoseKind", dottrack_kind_text);
   compare("DOTTRACK_Reply", "Result", dottrack_result_text);
-  EXPECT_EQ(words, 2U + 16U + 16U + 8U + 4U + 4U + 6U);
+  compare("DOTTRACK_Light", "LightState", dottrack_light_text);
+  compare("DOTTRACK_Light", "Iris", dottrack_iris_text);
+  EXPECT_EQ(words, 2U + 16U + 16U + 8U + 4U + 4U + 6U + 7U + 4U);
 }
 
 }  // namespace

@@ -289,6 +289,18 @@ dottrack_frame reply_frame(const dottrack_reply& reply, std::uint8_t sequence) {
   return frame;
 }
 
+dottrack_frame light_frame(const LightBits& light, std::uint8_t sequence) {
+  dottrack_frame frame = blank(kLight, sequence);
+  put_bits(frame, 16, 4, light.camera);
+  put_bits(frame, 20, 3, light.state);
+  put_bits(frame, 23, 2, light.iris);
+  put_bits(frame, 25, 20, light.exposure);
+  put_bits(frame, 45, 12, light.gain);
+  put_bits(frame, 57, 7, light.opening);
+  seal(frame);
+  return frame;
+}
+
 dottrack_frame random_frame(std::mt19937_64& random, unsigned message) {
   dottrack_frame frame = blank(message, 0);
   for (unsigned i = 0; i < frame.length; ++i) {
@@ -301,7 +313,7 @@ dottrack_frame random_frame(std::mt19937_64& random, unsigned message) {
 const std::vector<unsigned>& every_message() {
   static const std::vector<unsigned> kMessages = [] {
     std::vector<unsigned> messages;
-    for (unsigned message = 0; message <= kCommand; ++message) messages.push_back(message);
+    for (unsigned message = 0; message <= kLight; ++message) messages.push_back(message);
     for (unsigned message = kFirstDot; message < 64; ++message) messages.push_back(message);
     return messages;
   }();

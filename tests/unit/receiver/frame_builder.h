@@ -26,6 +26,7 @@ constexpr unsigned kConfiguration = 15;
 constexpr unsigned kFdPose = 16;
 constexpr unsigned kReply = 17;
 constexpr unsigned kCommand = 18;
+constexpr unsigned kLight = 19;
 constexpr unsigned kFirstDot = 32;
 constexpr std::uint64_t kClockMask = (std::uint64_t{1} << 48U) - 1;
 
@@ -84,6 +85,16 @@ dottrack_frame configuration_frame(std::uint8_t sequence, std::uint32_t hash, st
 dottrack_frame reply_frame(const dottrack_reply& reply, std::uint8_t sequence);
 
 // One frame of every message type: random content, sound checksum.
+// Raw numbers.
+struct LightBits {
+  std::uint8_t camera = 0;
+  std::uint8_t state = 0;
+  std::uint8_t iris = 0;
+  std::uint32_t exposure = 0;
+  std::uint16_t gain = 0;
+  std::uint8_t opening = 0;
+};
+dottrack_frame light_frame(const LightBits& light, std::uint8_t sequence);
 dottrack_frame random_frame(std::mt19937_64& random, unsigned message);
 const std::vector<unsigned>& every_message();
 

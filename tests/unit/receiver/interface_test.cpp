@@ -104,6 +104,8 @@ TEST(ReceiverInterface, EveryNumberHasAWord) {
   EXPECT_STREQ(dottrack_kind_text(4), "unknown");
   EXPECT_STREQ(dottrack_health_text(7), "moved");
   EXPECT_STREQ(dottrack_result_text(5), "failed");
+  EXPECT_STREQ(dottrack_light_text(6), "iris_fault");
+  EXPECT_STREQ(dottrack_iris_text(2), "at_end");
 }
 
 TEST(ReceiverInterface, NumbersWithoutMeaningAreUnknown) {
@@ -113,6 +115,8 @@ TEST(ReceiverInterface, NumbersWithoutMeaningAreUnknown) {
   EXPECT_STREQ(dottrack_degraded_text(0xFFFFFFFFU), "unknown");
   EXPECT_STREQ(dottrack_health_text(8), "unknown");
   EXPECT_STREQ(dottrack_result_text(6), "unknown");
+  EXPECT_STREQ(dottrack_light_text(7), "unknown");
+  EXPECT_STREQ(dottrack_iris_text(4), "unknown");
 }
 
 TEST(ReceiverInterface, ReadsWhatTheUnitIs) {
@@ -130,6 +134,63 @@ TEST(ReceiverInterface, ReadsWhatTheUnitIs) {
   EXPECT_EQ(unit.config_hash, 0xDEADBEEFU);
   EXPECT_EQ(unit.target, 1);
   EXPECT_EQ(unit.cameras, 16);
+}
+
+TEST(ReceiverInterface, ReadsTheLightOfEachCamera) {
+  Listener listener;
+  EXPECT_FALSE(listener.light(15).known);
+  const LightBits sent{
+      .camera = 15, .state = 4, .iris = 2, .exposure = 10'000, .gain = 800, .opening = 100};
+  EXPECT_EQ(listener.push(light_frame(sent, 7), 1234), DOTTRACK_WAITING);
+  const dottrack_light& light = listener.light(15);
+  EXPECT_TRUE(light.known);
+  EXPECT_STREQ(dottrack_light_text(light.state), "too_dark");
+  EXPECT_STREQ(dottrack_iris_text(light.iris), "at_end");
+  EXPECT_DOUBLE_EQ(light.exposure_s, 0.01);
+  EXPECT_DOUBLE_EQ(light.gain, 8.0);
+  EXPECT_DOUBLE_EQ(light.opening, 1.0);
+  EXPECT_EQ(light.arrival_us, 1234U);
+  for (unsigned camera = 0; camera < 15; ++camera) EXPECT_FALSE(listener.light(camera).known);
+}
+
+TEST(ReceiverInterface, LightThatIsNotAvailableIsNegative) {
+  Listener listener;
+  const LightBits none{.exposure = (1U << 20U) - 1, .gain = 4095, .opening = 127};
+  listener.push(light_frame(none, 0), 0);
+  EXPECT_EQ(listener.light(0).exposure_s, -1.0);
+  EXPECT_EQ(listener.light(0).gain, -1.0);
+  EXPECT_EQ(listener.light(0).opening, -1.0);
+  const LightBits most{.exposure = (1U << 20U) - 2, .gain = 4094, .opening = 101};
+  listener.push(light_frame(most, 1), 0);
+  EXPECT_DOUBLE_EQ(listener.light(0).exposure_s, 1.048574);
+  EXPECT_DOUBLE_EQ(listener.light(0).gain, 40.94);
+  EXPECT_EQ(listener.light(0).opening, -1.0) << "wider than open";
+}
+
+TEST(ReceiverInterface, DamagedLightChangesNothing) {
+  Listener listener;
+  const LightBits sent{.camera = 3, .state = 3, .iris = 1, .exposure = 4000, .gain = 100};
+  for (unsigned bit = 0; bit < 64; ++bit) {
+    dottrack_frame frame = light_frame(sent, 0);
+    flip_bit(frame, bit);
+    EXPECT_EQ(listener.push(frame, bit), DOTTRACK_CORRUPTED) << bit;
+  }
+  for (unsigned camera = 0; camera < 16; ++camera) EXPECT_FALSE(listener.light(camera).known);
+}
+
+// Light is not bound to a group: it comes between its frames, and what is lost of it loses none.
+TEST(ReceiverInterface, LightBetweenTheFramesOfAGroupLeavesItWhole) {
+  Unit unit;
+  Listener listener;
+  const Group group = unit.next();
+  std::uint8_t sequence = 200;
+  dottrack_verdict verdict = DOTTRACK_FOREIGN;
+  for (const dottrack_frame& frame : frames_of(group)) {
+    listener.push(light_frame({.state = 3}, sequence++), unit.arrival_us());
+    verdict = listener.push(frame, unit.arrival_us());
+  }
+  EXPECT_EQ(verdict, DOTTRACK_FRESH);
+  EXPECT_EQ(listener.counts().incomplete + listener.counts().lost_groups, 0U);
 }
 
 TEST(ReceiverInterface, OfAnotherVersionOnlyTheNumberIsRead) {

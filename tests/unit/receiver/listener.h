@@ -66,6 +66,7 @@ class Listener {
   const dottrack_pose& pose() const { return pose_; }
   const dottrack_counts& counts() const { return receiver_.counts; }
   const dottrack_unit& unit() const { return receiver_.unit; }
+  const dottrack_light& light(unsigned camera) const { return receiver_.light[camera]; }
   std::uint64_t verdicts(dottrack_verdict verdict) const {
     const auto found = verdicts_.find(verdict);
     return found == verdicts_.end() ? 0 : found->second;

@@ -9,8 +9,10 @@
 #include <random>
 
 #include "app/core/protocol/degraded.h"
+#include "app/core/protocol/light_message.h"
 #include "app/core/reason.h"
 #include "tests/support/bus_listener.h"
+#include "tests/unit/protocol/random_light.h"
 #include "tests/unit/protocol/random_message.h"
 
 namespace dottrack::receiver_test {
@@ -123,6 +125,31 @@ TEST_P(ReceiverAgreesWithTheUnit, ThatThereIsNoPose) {
 
 INSTANTIATE_TEST_SUITE_P(Buses, ReceiverAgreesWithTheUnit, testing::Bool(),
                          [](const auto& bus) { return bus.param ? "Fd" : "Classic"; });
+
+TEST(ReceiverAgreesWithTheUnit, AboutLight) {
+  std::mt19937_64 random(5);
+  const protocol::Addressing addressing{.base_id = 0x140, .extended = true};
+  unsigned set = 0;
+  for (unsigned i = 0; i < kMessages; ++i) {
+    const auto camera = static_cast<std::uint8_t>(random() % 16);
+    const exposure::CameraLight sent = protocol::test::random_light(random);
+    test::BusListener listener(addressing);
+    ASSERT_EQ(listener.hear(protocol::encode_light(camera, sent, addressing, 9)), DOTTRACK_WAITING);
+    const dottrack_light& light = listener.light(camera);
+    ASSERT_TRUE(light.known);
+    ASSERT_EQ(light.state, static_cast<std::uint8_t>(sent.state));
+    ASSERT_EQ(light.iris, static_cast<std::uint8_t>(sent.iris));
+    if (sent.state == exposure::LightState::off) {
+      ASSERT_TRUE(light.exposure_s < 0.0 && light.gain < 0.0 && light.opening < 0.0);
+      continue;
+    }
+    ASSERT_NEAR(light.exposure_s, to_seconds(sent.setting.exposure), 0.5001e-6);
+    ASSERT_NEAR(light.gain, sent.setting.gain, 0.005001);
+    ASSERT_NEAR(light.opening, sent.opening, 0.005001);
+    ++set;
+  }
+  EXPECT_GE(set, kMessages / 2);
+}
 
 TEST(ReceiverWords, AreTheUnits) {
   for (unsigned i = 0; i < 15; ++i) {

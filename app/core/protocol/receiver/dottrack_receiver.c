@@ -16,6 +16,7 @@ enum {
   FD_POSE = 16,
   REPLY = 17,
   COMMAND = 18,
+  LIGHT = 19,
   FIRST_DOT = 32
 };
 
@@ -23,8 +24,9 @@ enum {
 #define ALWAYS (BIT(STATUS) | BIT(1) | BIT(QUALITY) | BIT(3) | BIT(4) | BIT(5))
 #define MOTION (BIT(VELOCITY) | BIT(RATES))
 #define COVARIANCE (BIT(CORRELATION3 + 1) - BIT(SIGMA_POSITION))
-#define KNOWN ((BIT(COMMAND + 1) - 1) | ~(BIT(FIRST_DOT) - 1))
-#define GROUPED (KNOWN & ~(BIT(VERSION) | BIT(CONFIGURATION) | BIT(REPLY) | BIT(COMMAND)))
+#define KNOWN ((BIT(LIGHT + 1) - 1) | ~(BIT(FIRST_DOT) - 1))
+#define GROUPED \
+  (KNOWN & ~(BIT(VERSION) | BIT(CONFIGURATION) | BIT(REPLY) | BIT(COMMAND) | BIT(LIGHT)))
 
 #define CLASSIC_BYTES 8
 #define FD_BYTES 64
@@ -609,6 +611,27 @@ static dottrack_verdict take_identity(dottrack_receiver* receiver, const uint8_t
   return DOTTRACK_WAITING;
 }
 
+/* Negative: not available, or above the most that makes sense. */
+static double number_up_to(const uint8_t* data, place where, uint64_t most, double step) {
+  const uint64_t steps = get(data, where);
+  return steps <= most ? (double)steps * step : -1.0;
+}
+
+/* So does Light. A frame's memory goes on behind its eight bytes: get() stays within it. */
+static dottrack_verdict take_light(dottrack_receiver* receiver, const uint8_t* data) {
+  static const place camera = {16, 4}, state = {20, 3}, iris = {23, 2};
+  static const place exposure = {25, 20}, gain = {45, 12}, opening = {57, 7};
+  dottrack_light* light = &receiver->light[get(data, camera)];
+  light->known = true;
+  light->state = get8(data, state);
+  light->iris = get8(data, iris);
+  light->exposure_s = number_up_to(data, exposure, 1048574, 0.000001);
+  light->gain = number_up_to(data, gain, 4094, 0.01);
+  light->opening = number_up_to(data, opening, 100, 0.01);
+  light->arrival_us = receiver->now_us;
+  return DOTTRACK_WAITING;
+}
+
 static dottrack_verdict take(dottrack_receiver* receiver, const dottrack_frame* frame,
                              unsigned message, dottrack_pose* pose) {
   if (!sound(frame, message)) {
@@ -619,6 +642,7 @@ static dottrack_verdict take(dottrack_receiver* receiver, const dottrack_frame* 
   if (message == VERSION || message == CONFIGURATION) {
     return take_identity(receiver, frame->data, message);
   }
+  if (message == LIGHT) return take_light(receiver, frame->data);
   return DOTTRACK_WAITING;
 }
 
@@ -748,6 +772,17 @@ const char* dottrack_health_text(uint8_t health) {
   static const char* const words[] = {"absent", "used",     "unused",     "no_frame",
                                       "stale",  "overflow", "iris_fault", "moved"};
   return WORD_OF(words, health);
+}
+
+const char* dottrack_light_text(uint8_t state) {
+  static const char* const words[] = {"off",      "searching",  "settling",  "steady",
+                                      "too_dark", "too_bright", "iris_fault"};
+  return WORD_OF(words, state);
+}
+
+const char* dottrack_iris_text(uint8_t iris) {
+  static const char* const words[] = {"automatic", "ok", "at_end", "fault"};
+  return WORD_OF(words, iris);
 }
 
 const char* dottrack_result_text(uint8_t result) {

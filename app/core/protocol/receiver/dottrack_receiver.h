@@ -125,6 +125,18 @@ typedef struct dottrack_unit {
   uint8_t target, cameras;
 } dottrack_unit;
 
+/* How a camera stands with the light, as its last Light message said. What is not available is
+ * negative. */
+typedef struct dottrack_light {
+  bool known;          /* such a message has come */
+  uint8_t state;       /* dottrack_light_text() */
+  uint8_t iris;        /* dottrack_iris_text() */
+  double exposure_s;   /* that the camera was last set to */
+  double gain;         /* factor on the signal */
+  double opening;      /* of the iris: 0 closed, 1 fully open */
+  uint64_t arrival_us; /* your clock */
+} dottrack_light;
+
 /* Of frames and groups since dottrack_receiver_init(). The first group of all may have been joined
  * in the middle: it is not counted as incomplete. */
 typedef struct dottrack_counts {
@@ -153,12 +165,14 @@ typedef struct dottrack_settings {
 /* Base 0x300, 11 bits, age limit 0.3 s, group timeout 0.1 s, restart gap 1 s. */
 dottrack_settings dottrack_default_settings(void);
 
-/* Plain memory of yours. `counts` and `unit` may be read at any time; the rest is private. */
+/* Plain memory of yours. `counts`, `unit` and `light` may be read at any time; the rest is private.
+ */
 typedef struct dottrack_receiver {
   dottrack_settings settings;
   dottrack_counts counts;
   dottrack_unit unit;
-  uint64_t now_us; /* the latest time that was told */
+  dottrack_light light[DOTTRACK_MAX_CAMERAS]; /* of units that tell it */
+  uint64_t now_us;                            /* the latest time that was told */
   /* the group being collected, or the last one; all times are of your clock */
   bool begun, open, complete, joining, other_version;
   uint8_t sequence;
@@ -216,6 +230,8 @@ const char* dottrack_reason_text(uint8_t reason);
 const char* dottrack_degraded_text(unsigned bit);
 const char* dottrack_kind_text(uint8_t kind);
 const char* dottrack_health_text(uint8_t health);
+const char* dottrack_light_text(uint8_t state);
+const char* dottrack_iris_text(uint8_t iris);
 const char* dottrack_result_text(uint8_t result);
 
 #ifdef __cplusplus

@@ -181,7 +181,7 @@ TEST(DbcFile, EveryBeginningOfAFileIsReadOrRefused) {
 TEST(DottrackDbc, IsPartOfTheProgramAndWellFormed) {
   const DbcFile file = parsed(dottrack_dbc());
   EXPECT_EQ(file.version, "2");
-  EXPECT_EQ(file.messages.size(), 51U);
+  EXPECT_EQ(file.messages.size(), 52U);
   std::size_t signals = 0;
   for (const DbcMessage& message : file.messages) {
     EXPECT_EQ(message.attributes.count("E2EDataId"), 1U) << message.name;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/core/protocol/light_message.h"
 #include "app/workstation/dbc/dbc_file.h"
 #include "app/workstation/dbc/dottrack_dbc.h"
 #include "app/workstation/dbc_command.h"
@@ -100,6 +101,28 @@ TEST_F(MonitorCommand, WritesJsonAGroupAndForTheWhole) {
   EXPECT_EQ(json_member(lines[3], "degraded"), "[\"few_cameras\"]");
   EXPECT_EQ(json_member(lines.back(), "fresh_valid_poses"), "40");
   EXPECT_EQ(json_member(lines.back(), "lost_groups"), "0");
+}
+
+TEST_F(MonitorCommand, TellsTheLightOfEveryCamera) {
+  std::vector<Arrival> arrivals = monitor::test::groups(kGroups);
+  exposure::CameraLight light;
+  light.state = exposure::LightState::too_dark;
+  light.iris = exposure::IrisCondition::at_end;
+  light.setting = {std::chrono::milliseconds(10), 8.0};
+  arrivals.push_back({monitor::test::arrival_of(kGroups), protocol::encode_light(2, light, {}, 0)});
+  light = {};
+  arrivals.push_back({monitor::test::arrival_of(kGroups), protocol::encode_light(4, light, {}, 1)});
+  write(arrivals);
+  EXPECT_THAT(run({"--strict"}).out,
+              HasSubstr("light: too_dark 3, off 5; iris at_end 3, automatic 5\n"));
+  const ProgramRun result = run({"--json"});
+  const std::string summary = lines_of(result.out).back();
+  EXPECT_TRUE(is_json(summary)) << summary;
+  EXPECT_THAT(summary, HasSubstr("\"light\":[{\"camera\":3,\"state\":\"too_dark\",\"iris\":"
+                                 "\"at_end\",\"exposure_s\":0.01,\"gain\":8,\"opening\":1},"
+                                 "{\"camera\":5,\"state\":\"off\",\"iris\":\"automatic\","
+                                 "\"exposure_s\":null,\"gain\":null,\"opening\":null}]"));
+  EXPECT_THAT(run({"--signals"}).out, HasSubstr("DOTTRACK_Light  CRC"));
 }
 
 TEST_F(MonitorCommand, TumAndCsvHaveThePosesThatWereSent) {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <deque>
@@ -137,11 +138,36 @@ TEST(PoseWords, CamerasAndReasonsAreShort) {
   EXPECT_EQ(health_words(pose), "used 1-2, no_frame 5");
 }
 
+TEST(PoseWords, HealthNamesACameraThatHasMoved) {
+  dottrack_pose pose{};
+  pose.camera_health[2] = 7;
+  EXPECT_EQ(health_words(pose), "moved 3");
+}
+
+dottrack_light light_of(std::uint8_t state, std::uint8_t iris) {
+  dottrack_light light{};
+  light.known = true;
+  light.state = state;
+  light.iris = iris;
+  return light;
+}
+
+TEST(PoseWords, LightNamesEveryCameraThatWasTold) {
+  std::array<dottrack_light, DOTTRACK_MAX_CAMERAS> lights{};
+  EXPECT_EQ(light_words(lights), "");
+  lights[0] = lights[1] = lights[3] = light_of(3, 1);
+  lights[6] = light_of(4, 2);
+  lights[15] = light_of(6, 3);
+  EXPECT_EQ(light_words(lights),
+            "steady 1-2,4, too_dark 7, iris_fault 16; iris ok 1-2,4, at_end 7, fault 16");
+}
+
 TEST(LiveTableTest, HasEveryFactWithinANarrowTerminal) {
   dottrack_receiver receiver;
   dottrack_receiver_init(&receiver, nullptr);
   Statistics statistics;
-  const Overview overview{statistics, receiver.counts, receiver.unit, 0};
+  receiver.light[4] = light_of(5, 2);
+  const Overview overview{statistics, receiver.counts, receiver.unit, 0, receiver.light};
   TableContent content;
   content.title = "dottrack monitor can0";
   content.verdict = "fresh";
@@ -158,8 +184,9 @@ TEST(LiveTableTest, HasEveryFactWithinANarrowTerminal) {
     EXPECT_THAT(line, SizeIs(testing::Le(79U)));
     all += line + "\n";
   }
-  for (const char* word : {"tracking", "-838.8607", "camera_missing", "no_frame", "sigma",
-                           "velocity", "attitude", "jitter", "lost", "corrupted", "unit"}) {
+  for (const char* word :
+       {"tracking", "-838.8607", "camera_missing", "no_frame", "sigma", "too_bright 5",
+        "iris at_end 5", "velocity", "attitude", "jitter", "lost", "corrupted", "unit"}) {
     EXPECT_THAT(all, HasSubstr(word));
   }
 }
