@@ -79,11 +79,16 @@ PoseFitStatus PoseFitter::fit(std::span<const DotObservation> views, const Captu
   geometry::RigidMotion pose = start;
   Vector6d step = Vector6d::Zero();
   double moved = kFar;
+  std::size_t rows_before = 0;
   for (int i = 0; i < kMaxLinearisations; ++i) {
     if (moved >= kFar) find_eccentricities(*rig_, views, times, pose, offs_px_);
     linearise(*rig_, views, offs_px_, times, pose, rows_);
     if (2 * rows_.size() < kPoseCoordinates) return PoseFitStatus::too_few_views;
-    if (!robust_step(as_span(rows_), step, used_)) return PoseFitStatus::degenerate;
+    const bool again = moved < kFar && rows_.size() == rows_before;
+    rows_before = rows_.size();
+    if (!(again ? repeated_step : robust_step)(as_span(rows_), step, used_)) {
+      return PoseFitStatus::degenerate;
+    }
     pose = stepped(pose, step);
     moved = step.cwiseAbs().maxCoeff();
     if (moved < kSmallStep) break;

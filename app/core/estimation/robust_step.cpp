@@ -13,27 +13,43 @@ constexpr int kMaxTests = 4;
 
 using Squares = StaticVector<double, kMaxCameras * core::kMaxDots>;
 
+// Of the information only the lower triangle, which is all that `solve` looks at.
+void add_lower(const ViewRow& row, double weight, NormalEquations& normal) {
+  const Matrix26d& j = row.jacobian;
+  for (int column = 0; column < 6; ++column) {
+    const double x = weight * j(0, column);
+    const double y = weight * j(1, column);
+    for (int i = column; i < 6; ++i) normal.information(i, column) += x * j(0, i) + y * j(1, i);
+    normal.gradient[column] += x * row.residual.x() + y * row.residual.y();
+  }
+}
+
 bool solve(const NormalEquations& normal, Vector6d& step) {
   if (!determines_pose(normal.information)) return false;
   step = normal.information.ldlt().solve(normal.gradient);
   return true;
 }
 
-// How much larger the squared residuals are than their variances say; at least 1.
-double excess(std::span<const ViewRow> rows, const Vector6d& step) {
+Squares squares_of(std::span<const ViewRow> rows, const Vector6d& step) {
   Squares squares;
   for (const ViewRow& row : rows) squares.push_back(row.squared(step));
+  return squares;
+}
+
+// How much larger the squared residuals are than their variances say; at least 1.
+double excess(Squares squares) {
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>((squares.size() - 1) / 2);
   std::nth_element(squares.begin(), middle, squares.end());
   return std::max(1.0, *middle / kMedian);
 }
 
 bool reweighted(std::span<const ViewRow> rows, double width, Vector6d& step) {
-  const double scale = width * kWrongView * excess(rows, step);
+  const Squares squares = squares_of(rows, step);
+  const double scale = width * kWrongView * excess(squares);
   NormalEquations normal;
-  for (const ViewRow& row : rows) {
-    const double part = scale / (scale + row.squared(step));
-    normal.add(row, part * part);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double part = scale / (scale + squares[i]);
+    add_lower(rows[i], part * part, normal);
   }
   return solve(normal, step);
 }
@@ -41,18 +57,28 @@ bool reweighted(std::span<const ViewRow> rows, double width, Vector6d& step) {
 bool plain(std::span<const ViewRow> rows, const Flags& used, Vector6d& step) {
   NormalEquations normal;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (used[i]) normal.add(rows[i], 1.0);
+    if (used[i]) add_lower(rows[i], 1.0, normal);
   }
   return solve(normal, step);
+}
+
+// Plain least squares over the views within, until those are the same.
+bool settle(std::span<const ViewRow> rows, Vector6d& step, Flags& used) {
+  for (int i = 0; i < kMaxTests && test_views(rows, step, used); ++i) {
+    if (!plain(rows, used, step)) return false;
+  }
+  return true;
 }
 
 }  // namespace
 
 bool test_views(std::span<const ViewRow> rows, const Vector6d& step, Flags& used) {
-  const double limit = kWrongView * excess(rows, step);
+  if (rows.empty()) return false;
+  const Squares squares = squares_of(rows, step);
+  const double limit = kWrongView * excess(squares);
   bool changed = false;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool fits = rows[i].squared(step) <= limit;
+    const bool fits = squares[i] <= limit;
     changed = changed || fits != used[i];
     used[i] = fits;
   }
@@ -73,10 +99,11 @@ bool robust_step(std::span<const ViewRow> rows, Vector6d& step, Flags& used) {
   for (const double width : kWidths) {
     if (!reweighted(rows, width, step)) return false;
   }
-  for (int i = 0; i < kMaxTests && test_views(rows, step, used); ++i) {
-    if (!plain(rows, used, step)) return false;
-  }
-  return true;
+  return settle(rows, step, used);
+}
+
+bool repeated_step(std::span<const ViewRow> rows, Vector6d& step, Flags& used) {
+  return plain(rows, used, step) && settle(rows, step, used);
 }
 
 }  // namespace dottrack::estimation

@@ -36,6 +36,10 @@ inline constexpr double kWrongView = 18.42;  // of chi squared with two degrees 
 // step.
 bool robust_step(std::span<const ViewRow> rows, Vector6d& step, Flags& used);
 
+// The same of the same views about a pose close by, where `used` is known already: no loss is
+// needed to tell the wrong ones.
+bool repeated_step(std::span<const ViewRow> rows, Vector6d& step, Flags& used);
+
 // Which rows are within kWrongView of a step; true when that differs from what `used` said.
 bool test_views(std::span<const ViewRow> rows, const Vector6d& step, Flags& used);
 

@@ -43,11 +43,50 @@ Matrix2d lower_root(const Matrix2d& m) {
   return root;
 }
 
+constexpr double kStep_rad = 2.0 * std::numbers::pi / kNodes;
+
 Vector2d third_harmonics(const Vector2d& u) {
   const double x = u.x();
   const double y = u.y();
   return {x * x * x - 3.0 * x * y * y, 3.0 * x * x * y - y * y * y};
 }
+
+// A point of the outline, root e, and d place / d angle: its length is by how much a step of angle
+// is longer along the outline. The normal is across it, and |A place| is that length over root's
+// determinant.
+struct OutlinePoint {
+  OutlinePoint(const Matrix2d& root, const std::array<double, 2>& e)
+      : place(root(0, 0) * e[0], root(1, 0) * e[0] + root(1, 1) * e[1]),
+        across(root(1, 1) * e[0] - root(1, 0) * e[1], root(0, 0) * e[1]),
+        speed(across.norm()) {}
+
+  Vector2d place;
+  Vector2d across;  // the normal times speed
+  double speed;
+};
+
+// Along the outline, by length: u u^T, and h = 1 / |A u| times the third harmonics with each other,
+// the normal and u.
+struct ThirdIntegrals {
+  explicit ThirdIntegrals(const Matrix2d& root) {
+    const double determinant = root.determinant();
+    for (const auto& e : kCircle) {
+      const OutlinePoint at(root, e);
+      const double h = determinant / at.speed;
+      const Vector2d third = third_harmonics(at.place);
+      const Vector2d third_step = kStep_rad * h * third;
+      place_place += kStep_rad * at.speed * at.place * at.place.transpose();
+      third_third += determinant * third_step * third.transpose();
+      third_normal += third_step * at.across.transpose();
+      third_place += kStep_rad * determinant * third * at.place.transpose();
+    }
+  }
+
+  Matrix2d place_place = Matrix2d::Zero();
+  Matrix2d third_third = Matrix2d::Zero();
+  Matrix2d third_normal = Matrix2d::Zero();
+  Matrix2d third_place = Matrix2d::Zero();
+};
 
 }  // namespace
 
@@ -65,21 +104,18 @@ CentreInformation::CentreInformation(const OutlineModel& model, const FitWindow&
 void CentreInformation::integrate(const OutlineModel& model) {
   root_ = lower_root(model.shape.inverse());
   area_ = std::numbers::pi * root_.determinant();
-  for (const auto& node : kCircle) {
-    const Vector2d e(node[0], node[1]);
-    const Vector2d u = root_ * e;
-    const double ds = (root_ * Vector2d(-e.y(), e.x())).norm() * 2.0 * std::numbers::pi / kNodes;
-    const Vector2d g = model.shape * u;
-    const double h = 1.0 / g.norm();
-    const Vector2d n = h * g;
-    const Vector2d third = h * third_harmonics(u);
-    length_ += ds;
-    normal_normal_ += ds * n * n.transpose();
-    place_place_ += ds * u * u.transpose();
-    third_third_ += ds * third * third.transpose();
-    third_normal_ += ds * third * n.transpose();
-    third_place_ += ds * third * u.transpose();
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+  for (const auto& e : kCircle) {
+    const OutlinePoint at(root_, e);
+    const double per_speed = 1.0 / at.speed;
+    length_ += kStep_rad * at.speed;
+    xx += per_speed * at.across.x() * at.across.x();
+    xy += per_speed * at.across.x() * at.across.y();
+    yy += per_speed * at.across.y() * at.across.y();
   }
+  normal_normal_ << kStep_rad * xx, kStep_rad * xy, kStep_rad * xy, kStep_rad * yy;
 }
 
 Vector2d CentreInformation::centre_gradient(const OutlineModel& model, const ResidualSums& sums) {
@@ -96,6 +132,7 @@ CentreVector CentreInformation::step(const CentreVector& g) const {
 
 double CentreInformation::asymmetry(const OutlineModel& model, const ResidualSums& sums,
                                     const CentreVector& step) const {
+  const ThirdIntegrals third(root_);
   const double c = model.contrast_dn;
   const double s = model.blur_px;
   const double edge = c * c / (2.0 * kRootPi * s);
@@ -103,12 +140,13 @@ double CentreInformation::asymmetry(const OutlineModel& model, const ResidualSum
       0.25 * area_ * model.shape.inverse() + area_ * s * s * Matrix2d::Identity();
   const double blurred = kBlurredLight * s * s * std::numbers::pi / area_;
   Matrix42 by_centre;
-  by_centre << edge * third_normal_, 0.5 * c * area_ * Matrix2d::Identity();
+  by_centre << edge * third.third_normal, 0.5 * c * area_ * Matrix2d::Identity();
   Matrix42 by_slope;
-  by_slope << c * third_place_, light;
+  by_slope << c * third.third_place, light;
   Matrix4d information;
-  information << edge * third_third_, 0.5 * c * third_place_, 0.5 * c * third_place_.transpose(),
-      (1.0 + blurred) * light - s / kRootPi * place_place_;
+  information << edge * third.third_third, 0.5 * c * third.third_place,
+      0.5 * c * third.third_place.transpose(),
+      (1.0 + blurred) * light - s / kRootPi * third.place_place;
   const double scale = c / s;
   Vector4d left;
   left << scale * sums[ResidualSums::kRw3c], scale * sums[ResidualSums::kRw3s],

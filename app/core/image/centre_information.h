@@ -46,14 +46,8 @@ class CentreInformation {
   Eigen::Matrix2d root_;
   double area_ = 0.0;
   double length_ = 0.0;
-  // Along the outline, by length: n n^T, u u^T and what belongs to the third harmonics.
-  Eigen::Matrix2d normal_normal_ = Eigen::Matrix2d::Zero();
-  Eigen::Matrix2d place_place_ = Eigen::Matrix2d::Zero();
-  Eigen::Matrix2d third_third_ = Eigen::Matrix2d::Zero();
-  Eigen::Matrix2d third_normal_ = Eigen::Matrix2d::Zero();
-  Eigen::Matrix2d third_place_ = Eigen::Matrix2d::Zero();
-
-  double centre_slope_ = 0.0;  // times the identity, by Gauss's theorem
+  Eigen::Matrix2d normal_normal_;  // n n^T along the outline, by length
+  double centre_slope_ = 0.0;      // times the identity, by Gauss's theorem
   Eigen::Matrix2d per_scatter_;
   Eigen::Matrix2d covariance_;
 };

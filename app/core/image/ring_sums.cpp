@@ -21,6 +21,7 @@ using Wide = hn::RepartitionToWide<Lanes>;
 using Vector = hn::Vec<Lanes>;
 constexpr Lanes kLanes;
 constexpr int kStep = static_cast<int>(MaxLanes(Lanes()));
+static_assert(kMaxPatchSide_px - 1 + kStep <= kPatchColumns_px);  // what a row's end reads
 
 HWY_INLINE Vector all(int value) {
   return hn::Set(kLanes, static_cast<std::int16_t>(value));
@@ -64,7 +65,7 @@ void sum_values(const ImageView& patch, const PatchRows& rows, PatchSums& sums) 
     const Span inner = rows.inner[static_cast<std::size_t>(y)];
     const std::uint8_t* pixels = patch.row(y);
     const Vector row = all(y);
-    for (int k = outer.first / kStep * kStep; k <= outer.last; k += kStep) {
+    for (int k = outer.first; k <= outer.last; k += kStep) {
       const Vector x = hn::Add(iota, all(k));
       const Vector value = hn::IfThenElseZero(in_span(x, outer), load(pixels + k));
       const auto inside = in_span(x, inner);
@@ -122,7 +123,7 @@ void drop(const ImageView& patch, const PatchRows& rows, const IntegerPlane& pla
     const Span inner = rows.inner[static_cast<std::size_t>(y)];
     const std::uint8_t* pixels = patch.row(y);
     const Vector down = all(lane_units(plane.at_origin + plane.per_y * y));
-    for (int k = outer.first / kStep * kStep; k <= outer.last; k += kStep) {
+    for (int k = outer.first; k <= outer.last; k += kStep) {
       const Vector x = hn::Add(iota, all(k));
       const Vector expected = hn::SaturatedAdd(down, hn::LoadU(kLanes, across.data() + k));
       const Vector value = hn::ShiftLeft<6>(load(pixels + k));
