@@ -1,6 +1,7 @@
 // Every built-in scenario, as far as its point: the tracker's poses against the truth. Each margin
 // is about twice what was measured. Wrong locks: none, anywhere.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -10,6 +11,7 @@
 #include "app/workstation/trial_summary.h"
 #include "app/workstation/trials.h"
 #include "host_sim/scenarios/scenario_file.h"
+#include "tests/sim/moved_ticks.h"
 #include "tests/support/temporary_folder.h"
 
 namespace dottrack::workstation {
@@ -60,6 +62,8 @@ TEST_P(Scenarios, AreTrackedAndNeverWrongly) {
   EXPECT_LE(sim.accuracy.position_max_mm, expected.position_max_mm);
   EXPECT_LE(sim.accuracy.attitude_max_deg, expected.attitude_max_deg);
   EXPECT_EQ(sim.loop.allocations_in_loop, 0U);
+  EXPECT_THAT(test::moved_ticks(folder.path() / "out", load(expected.scenario, 1).cameras.size()),
+              testing::Each(-1));
 }
 
 INSTANTIATE_TEST_SUITE_P(
