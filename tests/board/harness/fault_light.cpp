@@ -18,11 +18,12 @@ constexpr const char* kControl =
 constexpr double kDimmed = 0.35;
 constexpr double kFollowed = 1.8;  // of 1 / kDimmed, at least: the dots may have been too bright
 constexpr double kBrightAgain = 0.6;
+constexpr auto kRest = seconds(8);
 constexpr auto kSettlePatience = seconds(90);
 
 // What each camera was told to gather, and what its pictures show.
 struct Light {
-  std::vector<double> exposure_ms;  // times gain
+  std::vector<double> gathered_ms;  // exposure times gain times opening
   std::vector<double> mean_dn;
   std::uint64_t iris_steps = 0;
 };
@@ -31,7 +32,8 @@ Light light_of(Board& board) {
   Light light;
   for (std::size_t i = 0; i < board.scene().cameras.size(); ++i) {
     const hal::ExposureSettings set = board.cameras().exposure(i);
-    light.exposure_ms.push_back(1e3 * to_seconds(set.exposure) * set.gain);
+    light.gathered_ms.push_back(1e3 * to_seconds(set.exposure) * set.gain *
+                                board.gpio().iris(i).opening());
     light.mean_dn.push_back(board.lighting().mean_dn(i));
     light.iris_steps += board.gpio().iris(i).steps();
   }
@@ -45,32 +47,57 @@ std::size_t cameras_where(const Light& light, Holds holds) {
   return count;
 }
 
-// Exposure and pictures of camera i came up again after the light went.
+// Camera i gathers more since the light went, and its pictures came up again.
 bool followed(const Light& before, const Light& now, std::size_t i) {
-  return now.exposure_ms[i] > kFollowed * before.exposure_ms[i] &&
+  return now.gathered_ms[i] > kFollowed * before.gathered_ms[i] &&
          now.mean_dn[i] > kBrightAgain * before.mean_dn[i];
+}
+
+std::string words(const Light& before, const Light& now) {
+  std::string text;
+  for (std::size_t i = 0; i < before.mean_dn.size(); ++i) {
+    text += fmt::format("{}cam{} gathers {:.1f} times as much for {:.0f} % of the brightness",
+                        i == 0 ? "" : ", ", i + 1, now.gathered_ms[i] / before.gathered_ms[i],
+                        1e2 * now.mean_dn[i] / before.mean_dn[i]);
+  }
+  return text;
+}
+
+// Until no camera is told anything else for a while.
+Light await_rest(Board& board) {
+  const Time deadline = host_now() + kSettlePatience;
+  Light light = light_of(board);
+  Time since = host_now();
+  while (host_now() < deadline && host_now() - since < kRest) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    Light now = light_of(board);
+    if (now.gathered_ms != light.gathered_ms) since = host_now();
+    light = std::move(now);
+  }
+  return light;
 }
 
 // Three in four: some cameras may see no dot where the rover is.
 Result<std::size_t> await_followers(Board& board, const Light& before) {
   const std::size_t enough = (3 * before.mean_dn.size() + 3) / 4;
   const Time deadline = host_now() + kSettlePatience;
-  std::size_t followers = 0;
+  Light now = light_of(board);
   while (host_now() < deadline) {
-    const Light now = light_of(board);
-    followers = cameras_where(now, [&](std::size_t i) { return followed(before, now, i); });
+    const auto followers =
+        cameras_where(now, [&](std::size_t i) { return followed(before, now, i); });
     if (followers >= enough) return followers;
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    now = light_of(board);
   }
-  return fail(fmt::format("{} of {} cameras exposed longer and showed it; expected {}", followers,
-                          before.mean_dn.size(), enough));
+  return fail(fmt::format("expected {} cameras to gather more and show it: {}", enough,
+                          words(before, now)));
 }
 
 Result<std::string> dim_and_look(Board& board, std::uint64_t steps_before) {
   if (auto on = await_poses(board, board.poses().size(), kPosesToGoOn, kPosePatience); !on) {
     return fail("with light control: " + on.error().message);
   }
-  const Light before = light_of(board);
+  const Light before = await_rest(board);
   const Time dimmed = host_now();
   board.lighting().dim_to(kDimmed);
   const auto followers = await_followers(board, before);
