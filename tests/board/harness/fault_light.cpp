@@ -16,7 +16,8 @@ using std::chrono::seconds;
 constexpr const char* kControl =
     R"(s/^\[loop\]/[light]\ncontrol = true\nexposure_ms = [0.1, 20.0]\nmax_blur_px = 5.0\n\n[loop]/)";
 constexpr double kDimmed = 0.35;
-constexpr double kFollowed = 1.8;  // of 1 / kDimmed, at least: the dots may have been too bright
+constexpr double kFollowed =
+    1.8;  // times as much light is gathered, at least; 1 / kDimmed makes up
 constexpr double kBrightAgain = 0.6;
 constexpr auto kRest = seconds(8);
 constexpr auto kSettlePatience = seconds(90);
