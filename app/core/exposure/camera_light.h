@@ -36,7 +36,6 @@ struct CameraLight {
   ExposureSetting setting;  // as last accepted by the camera
   double opening = 1.0;     // of the iris, as it says of itself
   IrisCondition iris = IrisCondition::automatic;
-  bool automatic = true;  // the lens's own auto-iris is in charge
   // Of the dots seen in this tick; of the image's brightest parts where none is.
   int peak_dn = 0;
   int contrast_dn = 0;   // of the brightest dot to its surround

@@ -228,7 +228,6 @@ void LightControl::report(Camera& camera, const IrisView& iris) const {
   light.state = settings_.on ? state_of(camera, settings_) : LightState::off;
   light.setting = camera.exposure.setting();
   light.opening = iris.opening;
-  light.automatic = iris.automatic;
   light.iris = condition_of(camera, iris);
   const bool dots = reading.dots > 0;
   light.peak_dn = dots ? reading.brightest.peak_dn : reading.image.high_dn;

@@ -172,7 +172,7 @@ TEST_F(LitCycleTest, ALightThatDoesNotGoOutIsToldNextTime) {
 
 TEST_F(LitCycleTest, FarewellGivesTheIrisesBack) {
   drive(2, 0.9);
-  EXPECT_FALSE(record_.light[0].automatic);
+  EXPECT_NE(record_.light[0].iris, exposure::IrisCondition::automatic);
   EXPECT_EQ(iris_.released, CameraSet{});
   lit_->farewell(clock_.now());
   EXPECT_EQ(iris_.released, CameraSet::first(kCameras));
