@@ -118,6 +118,7 @@ void PoseFitter::report(std::span<const DotObservation> views, const geometry::R
     result.coordinates += 2;
     result.chi2 += row.residual.squaredNorm();
   }
+  for (auto& camera : result.cameras) camera.normal.mirror();
   if (result.coordinates >= kPoseCoordinates) set_covariance(sums, result);
 }
 

@@ -13,17 +13,6 @@ constexpr int kMaxTests = 4;
 
 using Squares = StaticVector<double, kMaxCameras * core::kMaxDots>;
 
-// Of the information only the lower triangle, which is all that `solve` looks at.
-void add_lower(const ViewRow& row, double weight, NormalEquations& normal) {
-  const Matrix26d& j = row.jacobian;
-  for (int column = 0; column < 6; ++column) {
-    const double x = weight * j(0, column);
-    const double y = weight * j(1, column);
-    for (int i = column; i < 6; ++i) normal.information(i, column) += x * j(0, i) + y * j(1, i);
-    normal.gradient[column] += x * row.residual.x() + y * row.residual.y();
-  }
-}
-
 bool solve(const NormalEquations& normal, Vector6d& step) {
   if (!determines_pose(normal.information)) return false;
   step = normal.information.ldlt().solve(normal.gradient);
@@ -49,7 +38,7 @@ bool reweighted(std::span<const ViewRow> rows, double width, Vector6d& step) {
   NormalEquations normal;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double part = scale / (scale + squares[i]);
-    add_lower(rows[i], part * part, normal);
+    normal.add(rows[i], part * part);
   }
   return solve(normal, step);
 }
@@ -57,7 +46,7 @@ bool reweighted(std::span<const ViewRow> rows, double width, Vector6d& step) {
 bool plain(std::span<const ViewRow> rows, const Flags& used, Vector6d& step) {
   NormalEquations normal;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (used[i]) add_lower(rows[i], 1.0, normal);
+    if (used[i]) normal.add(rows[i], 1.0);
   }
   return solve(normal, step);
 }
@@ -71,6 +60,16 @@ bool settle(std::span<const ViewRow> rows, Vector6d& step, Flags& used) {
 }
 
 }  // namespace
+
+void NormalEquations::add(const ViewRow& row, double weight) {
+  const Matrix26d& j = row.jacobian;
+  for (int column = 0; column < 6; ++column) {
+    const double x = weight * j(0, column);
+    const double y = weight * j(1, column);
+    for (int i = column; i < 6; ++i) information(i, column) += x * j(0, i) + y * j(1, i);
+    gradient[column] += x * row.residual.x() + y * row.residual.y();
+  }
+}
 
 bool test_views(std::span<const ViewRow> rows, const Vector6d& step, Flags& used) {
   if (rows.empty()) return false;

@@ -13,9 +13,10 @@ struct NormalEquations {
   Matrix6d information = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
 
-  void add(const ViewRow& row, double weight) {
-    information.noalias() += weight * row.jacobian.transpose() * row.jacobian;
-    gradient.noalias() += weight * row.jacobian.transpose() * row.residual;
+  // Of the information only the lower triangle, which is all that solving looks at.
+  void add(const ViewRow& row, double weight);
+  void mirror() {
+    information.triangularView<Eigen::StrictlyUpper>() = information.transpose().eval();
   }
   void scale(double factor) {
     information *= factor;
