@@ -11,6 +11,7 @@
 #include "app/core/image/outline_sums.h"
 #include "app/core/image/ring_sums.h"
 #include "app/core/image/shape_information.h"
+#include "app/core/image/uneven_ring.h"
 
 namespace dottrack::image {
 namespace {
@@ -22,8 +23,12 @@ constexpr double kMaxSemiMajor_px = 24.0;
 constexpr double kMinSemiMinor_px = 0.5;
 constexpr double kGrow_px = 2.75;  // how far outside the region blur still reaches
 constexpr int kRounds = 2;
-constexpr double kConverged = 1.0;  // what the last step took off the sum of squares, in noise
-constexpr double kOutlierSigmas = 3.5;
+constexpr double kConverged = 1.0;    // what the last step took off the sum of squares, in noise
+constexpr double kNearest_px = 5.0;   // where the ring's nearest part ends
+constexpr double kLit_px = 1.6;       // as far out there is light of the dot
+constexpr double kEdge_px = 0.8;      // where the outline may be
+constexpr double kUnevenRing = 0.04;  // of the contrast: more is not noise alone
+constexpr double kOutliersPerPixel = 0.01;
 // Lenses as they are: 0.65 px, with the pixel's own width.
 constexpr double kUsualBlur_px = 0.71;
 constexpr double kBlurSigma_px = 0.3;
@@ -70,7 +75,21 @@ class Fitting {
     set_spans(outer, middle, patch.rows(), patch.columns(), rows.outer);
     set_spans(inner, middle, patch.rows(), patch.columns(), rows.inner);
     const Pixels pixels(image_, patch);
-    if (!sum_up(pixels.view(), rows) || !start()) return false;
+    if (!sum_up(pixels.view(), rows)) return false;
+    if (is_uneven()) {
+      const auto spans_of = [&](double grow_px) {
+        Spans spans;
+        const GrownEllipse ellipse(region_, cosine, sine, grow_px);
+        set_spans(ellipse, middle, patch.rows(), patch.columns(), spans);
+        return spans;
+      };
+      find_own_ground(pixels.view(), rows, spans_of(kNearest_px), plane_);
+      drop_strangers(pixels.view(), rows, {spans_of(kLit_px), spans_of(kEdge_px)}, plane_, sums_,
+                     pixels_);
+      if (!fit(sums_.ring, plane_)) return false;
+    }
+    set_window();
+    if (!start()) return false;
     return iterate();
   }
 
@@ -82,16 +101,21 @@ class Fitting {
   bool sum_up(const ImageView& patch, const PatchRows& rows) {
     sums_ = sum_patch(patch, rows);
     if (!fit(sums_.ring, plane_)) return false;
-    const GreySums whole = sums_.ring;
-    drop_outliers(patch, rows, rounded(plane_, kOutlierSigmas * plane_.sigma + 1.0), sums_.ring);
+    const std::int64_t whole = sums_.ring.n;
+    drop_outliers(patch, rows, rounded(plane_, noise_limit_dn(plane_)), sums_.ring);
     if (!fit(sums_.ring, plane_)) return false;
-    if (50 * sums_.ring.n < 49 * whole.n) {  // what hid behind the worst of it
-      sums_.ring = whole;
-      drop_outliers(patch, rows, rounded(plane_, kOutlierSigmas * plane_.sigma + 1.0), sums_.ring);
-      if (!fit(sums_.ring, plane_)) return false;
-    }
-    set_window();
+    outliers_ = whole - sums_.ring.n;
     return list_pixels(patch, rows, pixels_);
+  }
+
+  // Something else shows in the ring.
+  bool is_uneven() const {
+    const double core_dn = core_grey(region_.centroid_px);
+    const Vector2d middle = region_.centroid_px - corner_;
+    const double around_dn =
+        plane_.at_origin + plane_.per_x * middle.x() + plane_.per_y * middle.y();
+    return kOutliersPerPixel * static_cast<double>(sums_.ring.n) < static_cast<double>(outliers_) ||
+           plane_.sigma > kUnevenRing * std::abs(core_dn - around_dn);
   }
 
   void set_window() {
@@ -280,6 +304,7 @@ class Fitting {
   Vector2d corner_;
   PatchSums sums_;
   Plane plane_;
+  std::int64_t outliers_ = 0;  // that were in the ring
   FitWindow window_;
   OutlineModel model_;
   LeftOver left_;

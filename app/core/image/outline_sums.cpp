@@ -45,11 +45,8 @@ bool list(const ImageView& patch, const PatchRows& rows, DotPixels& pixels) {
     }
     count += n;
   }
-  // What is read behind the last pixel is far from the dot.
-  std::fill_n(pixels.x.begin() + count, kBlock, 1e4F);
-  std::fill_n(pixels.y.begin() + count, kBlock, 0.0F);
-  std::fill_n(pixels.grey.begin() + count, kBlock, 0.0F);
   pixels.count = count;
+  pixels.close();
   return true;
 }
 

@@ -3,6 +3,7 @@
 // ways in which that model can give.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -41,6 +42,20 @@ struct DotPixels {
   std::array<float, kCapacity + kBlock> x;
   std::array<float, kCapacity + kBlock> y;
   std::array<float, kCapacity + kBlock> grey;
+
+  void add(int at_x, int at_y, int of_grey) {
+    const auto at = static_cast<std::size_t>(count++);
+    x[at] = static_cast<float>(at_x);
+    y[at] = static_cast<float>(at_y);
+    grey[at] = static_cast<float>(of_grey);
+  }
+  // After the last pixel: what is read behind it is far from the dot.
+  void close() {
+    const auto end = static_cast<std::ptrdiff_t>(count);
+    std::fill_n(x.begin() + end, kBlock, 1e4F);
+    std::fill_n(y.begin() + end, kBlock, 0.0F);
+    std::fill_n(grey.begin() + end, kBlock, 0.0F);
+  }
 };
 
 // The pixels of the rows' inner spans. False when there is no room for them.

@@ -97,19 +97,6 @@ HWY_INLINE std::int16_t lane_units(std::int64_t units) {
       std::clamp<std::int64_t>(units / kUnitsPerLaneUnit, -0x7FFF, 0x7FFF));
 }
 
-void subtract(GreySums& sums, int x, int y, int v) {
-  sums.n -= 1;
-  sums.x -= x;
-  sums.y -= y;
-  sums.xx -= x * x;
-  sums.xy -= x * y;
-  sums.yy -= y * y;
-  sums.v -= v;
-  sums.vx -= v * x;
-  sums.vy -= v * y;
-  sums.vv -= v * v;
-}
-
 void drop(const ImageView& patch, const PatchRows& rows, const IntegerPlane& plane,
           GreySums& ring) {
   std::array<std::int16_t, kPatchColumns_px> across{};

@@ -38,6 +38,20 @@ struct GreySums {
   std::int64_t vv = 0;  // of the ring only
 };
 
+// Takes a pixel out.
+inline void subtract(GreySums& sums, int x, int y, int v) {
+  sums.n -= 1;
+  sums.x -= x;
+  sums.y -= y;
+  sums.xx -= x * x;
+  sums.xy -= x * y;
+  sums.yy -= y * y;
+  sums.v -= v;
+  sums.vx -= v * x;
+  sums.vy -= v * y;
+  sums.vv -= v * v;
+}
+
 struct PatchSums {
   GreySums dot;
   GreySums ring;

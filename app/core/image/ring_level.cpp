@@ -1,0 +1,65 @@
+#include "app/core/image/ring_level.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace dottrack::image {
+namespace {
+
+constexpr int kGreys = 256;
+constexpr int kMinPixels = 20;
+constexpr double kShare = 0.4;
+constexpr double kShareSigmas = 1.05;  // width of the middle two fifths of a normal distribution
+
+struct Histogram {
+  std::array<std::uint16_t, kGreys> of{};
+  int count = 0;
+
+  void add(const std::uint8_t* pixels, int first, int last) {
+    for (int x = first; x <= last; ++x) ++of[pixels[x]];
+    count += std::max(last - first + 1, 0);
+  }
+};
+
+Histogram histogram_of(const ImageView& patch, const PatchRows& rows) {
+  Histogram histogram;
+  for (int y = 0; y < rows.count; ++y) {
+    const Span outer = rows.outer[static_cast<std::size_t>(y)];
+    const Span inner = rows.inner[static_cast<std::size_t>(y)];
+    if (inner.last < inner.first) {
+      histogram.add(patch.row(y), outer.first, outer.last);
+    } else {
+      histogram.add(patch.row(y), outer.first, inner.first - 1);
+      histogram.add(patch.row(y), inner.last + 1, outer.last);
+    }
+  }
+  return histogram;
+}
+
+}  // namespace
+
+// The darkest of equally short intervals, so that one thing decides.
+bool find_level(const ImageView& patch, const PatchRows& rows, RingLevel& level) {
+  const Histogram histogram = histogram_of(patch, rows);
+  if (histogram.count < kMinPixels) return false;
+  const int wanted = static_cast<int>(kShare * histogram.count);
+  int shortest = kGreys + 1;
+  int held = 0;
+  int begin = 0;
+  for (int end = 0; end < kGreys; ++end) {
+    held += histogram.of[static_cast<std::size_t>(end)];
+    while (held - histogram.of[static_cast<std::size_t>(begin)] >= wanted) {
+      held -= histogram.of[static_cast<std::size_t>(begin)];
+      ++begin;
+    }
+    if (held < wanted || end - begin + 1 >= shortest) continue;
+    shortest = end - begin + 1;
+    level.middle_dn = 0.5 * (begin + end);
+  }
+  level.sigma_dn = shortest / kShareSigmas;
+  return true;
+}
+
+}  // namespace dottrack::image
