@@ -60,7 +60,7 @@ std::string can_toml(const CanModel& can) {
 
 // Surveyed exactly, but shadows and lamps light a dot unevenly: over the drives the middle of a
 // dot's light is off by this much.
-constexpr double kDotSigma_m = 0.00025;
+constexpr double kDotSigma_m = 0.00012;
 
 // The cameras show a new setting in the second frame after it was made.
 constexpr std::string_view kLightToml = "\n[light]\ncontrol = true\ndelay_ticks = 2\n";
