@@ -179,7 +179,7 @@ void Follower::report(core::Reason reason) {
   result_.dots = locator_.dots();
   result_.dots_used = static_cast<std::uint8_t>(locator_.dots_used());
   result_.views_used = static_cast<std::uint16_t>(locator_.views_used());
-  result_.views_left_out = static_cast<std::uint16_t>(locator_.views() - locator_.views_used());
+  result_.views_left_out = static_cast<std::uint16_t>(locator_.views_left_out());
   for (const core::DotState& dot : result_.dots) {
     for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
       if (dot.cameras.contains(camera)) result_.cameras_used.insert(camera);

@@ -13,6 +13,8 @@ using core::Reason;
 using Eigen::Vector3d;
 using estimation::PoseFitStatus;
 
+constexpr int kFewWrong = 4;  // of so many views one may be wrong
+
 // Root of the largest position variance that the pose's covariance gives any dot of the target.
 double worst_dot_sigma_m(const core::Target& target, const core::Pose& pose) {
   double worst = 0.0;
@@ -57,6 +59,7 @@ Reason PoseLocator::locate(const SeenDots& seen, const Expectation& expected,
   if (dots_used() < static_cast<int>(core::kMinDots)) return Reason::too_few_dots;
   if (status != PoseFitStatus::ok) return Reason::degenerate_geometry;
   has_pose_ = true;
+  if (kFewWrong * views_left_out() <= views()) leave_out_wrong_views();
   record(seen);
   fit_.pose.rms_residual_m = triangulated_residual_m();
   return judge(placed);
@@ -65,20 +68,41 @@ Reason PoseLocator::locate(const SeenDots& seen, const Expectation& expected,
 void PoseLocator::triangulate(const SeenDots& seen, const Expectation& expected,
                               const PlacedDots& placed, const estimation::CaptureTimes& times) {
   for (std::size_t dot = 0; dot < rig_->target.dots.size(); ++dot) {
-    estimation::Views views;
+    views_[dot].clear();
     for (std::size_t camera = 0; camera < rig_->cameras.size(); ++camera) {
       if (!seen.counts(camera, dot)) continue;
-      views.push_back({camera, &rig_->cameras[camera], &seen.by_camera[camera][dot].sighting,
-                       way_of(expected, placed[dot], times.after_s[camera])});
+      views_[dot].push_back({camera, &rig_->cameras[camera], &seen.by_camera[camera][dot].sighting,
+                             way_of(expected, placed[dot], times.after_s[camera])});
     }
-    core::DotState& state = dots_[dot];
-    state = {};
-    estimation::DotPosition position;
-    if (!estimation::locate_dot(views, position)) continue;
-    state.located = true;
-    state.position_m = position.position_m;
-    state.position_sigma_m = std::sqrt(position.covariance_m2.trace());
-    state.diameter_m = position.diameter_m;
+    locate_dot(dot);
+  }
+}
+
+void PoseLocator::locate_dot(std::size_t dot) {
+  core::DotState& state = dots_[dot];
+  state = {};
+  estimation::DotPosition position;
+  if (!estimation::locate_dot(views_[dot], position)) return;
+  state.located = true;
+  state.position_m = position.position_m;
+  state.position_sigma_m = std::sqrt(position.covariance_m2.trace());
+  state.diameter_m = position.diameter_m;
+}
+
+// A view that all the others contradict may be half of what a dot was located from.
+void PoseLocator::leave_out_wrong_views() {
+  std::array<bool, core::kMaxDots> anew{};
+  for (std::size_t i = 0; i < fit_.views.size(); ++i) {
+    if (fit_.views[i].used) continue;
+    const estimation::DotObservation& wrong = observations_[i];
+    estimation::Views& views = views_[wrong.dot];
+    views.erase(std::remove_if(views.begin(), views.end(),
+                               [&](const auto& view) { return view.camera == wrong.camera; }),
+                views.end());
+    anew[wrong.dot] = true;
+  }
+  for (std::size_t dot = 0; dot < rig_->target.dots.size(); ++dot) {
+    if (anew[dot]) locate_dot(dot);
   }
 }
 

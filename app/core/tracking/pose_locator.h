@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "app/core/estimation/dot_position.h"
 #include "app/core/estimation/pose_fit.h"
 #include "app/core/rig.h"
 #include "app/core/tick_result.h"
@@ -31,11 +32,14 @@ class PoseLocator {
   int dots_used() const;
   int views_used() const { return fit_.coordinates / 2; }
   int views() const { return static_cast<int>(observations_.size()); }
+  int views_left_out() const { return views() - views_used(); }
 
  private:
   void triangulate(const SeenDots& seen, const Expectation& expected, const PlacedDots& placed,
                    const estimation::CaptureTimes& times);
+  void locate_dot(std::size_t dot);
   void observe(const SeenDots& seen);
+  void leave_out_wrong_views();
   bool dots_step_too_far(const PlacedDots& placed) const;
   bool pose_steps_too_far(const PlacedDots& placed) const;
   geometry::RigidMotion start(const Expectation& expected) const;
@@ -46,6 +50,7 @@ class PoseLocator {
 
   const core::Rig* rig_;
   estimation::PoseFitter fitter_;
+  std::array<estimation::Views, core::kMaxDots> views_;
   estimation::DotObservations observations_;
   estimation::PoseFit fit_;
   std::array<core::DotState, core::kMaxDots> dots_{};
