@@ -103,7 +103,7 @@ void write_dot(const TickResult& result, std::size_t i, std::size_t cameras, Lin
 void write_light(const CycleRecord& record, std::size_t camera, Line& line) {
   const exposure::CameraLight& light = record.light[camera];
   line << record.result.cameras[camera].bloomed << light.peak_dn << light.saturated_px
-       << exposure::to_string(light.state);
+       << exposure::to_string(light.state) << exposure::to_string(light.iris);
   if (light.state == exposure::LightState::off) return line.skip(3);
   line << 1e3 * to_seconds(light.setting.exposure) << light.setting.gain << light.opening;
 }
@@ -203,10 +203,12 @@ std::string header(const std::vector<std::string>& cameras, std::size_t dots) {
   for (std::size_t dot = 0; dot < dots; ++dot) header_of_dot(dot, cameras, line);
   for (const std::string& camera : cameras) {
     for (const std::string_view name :
-         {"delivered",      "used",           "regions",     "components", "rejected_size",
-          "rejected_shape", "rejected_sight", "sightings",   "overflow",   "stale",
-          "moved",          "shift_x_px",     "shift_y_px",  "bloomed",    "peak_dn",
-          "saturated_px",   "light",          "exposure_ms", "gain",       "iris"}) {
+         {"delivered",     "used",           "regions",        "components",
+          "rejected_size", "rejected_shape", "rejected_sight", "sightings",
+          "overflow",      "stale",          "moved",          "shift_x_px",
+          "shift_y_px",    "bloomed",        "peak_dn",        "saturated_px",
+          "light",         "iris_condition", "exposure_ms",    "gain",
+          "iris"}) {
       line << fmt::format("{}_{}", camera, name);
     }
   }

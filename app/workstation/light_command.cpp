@@ -51,6 +51,8 @@ void add_light_command(CLI::App& app, int& exit_status) {
   const auto options = std::make_shared<LightRunOptions>();
   sub->add_option("--out", options->out, "Folder for the results; made when absent")->required();
   sub->add_option("--ticks", options->ticks, "Of each scenario, at most");
+  sub->add_option("--rate", options->frame_rate_hz, "Frames a second, in place of the scenarios'")
+      ->check(CLI::Range(1.0, 60.0));
   sub->add_option("--threads", options->threads, "For rendering; 0: as many as the machine has")
       ->check(CLI::Range(0, 256));
   sub->callback([options, &exit_status] { exit_status = run(*options); });

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "app/workstation/sim_run.h"
 #include "host_sim/scenarios/scenario_file.h"
@@ -48,11 +49,19 @@ Result<LightFigures> run(const host_sim::Scene& scene, host_sim::SceneRenderer& 
   return figures;
 }
 
-Result<host_sim::Scene> load(const std::string& name, std::uint64_t ticks) {
+void set_rate(double frame_rate_hz, host_sim::Scene& scene) {
+  const double seconds = static_cast<double>(scene.ticks) / scene.frame_rate_hz;
+  scene.ticks = static_cast<std::uint64_t>(std::llround(seconds * frame_rate_hz));
+  scene.frame_rate_hz = frame_rate_hz;
+}
+
+Result<host_sim::Scene> load(const std::string& name, const LightRunOptions& options) {
   const auto file = host_sim::find_scenario(name);
   if (!file) return tl::unexpected<Error>(file.error());
   auto scene = host_sim::load_scenario(*file, {});
-  if (scene && ticks > 0) scene->ticks = std::min(scene->ticks, ticks);
+  if (!scene) return scene;
+  if (options.frame_rate_hz > 0.0) set_rate(options.frame_rate_hz, *scene);
+  if (options.ticks > 0) scene->ticks = std::min(scene->ticks, options.ticks);
   return scene;
 }
 
@@ -67,7 +76,7 @@ std::string row(const std::string& scenario, const char* control, const LightFig
 Result<std::vector<LightComparison>> compare_light(const LightRunOptions& options) {
   std::vector<LightComparison> comparisons;
   for (const char* name : kScenarios) {
-    auto scene = load(name, options.ticks);
+    auto scene = load(name, options);
     if (!scene) return tl::unexpected<Error>(scene.error());
     host_sim::SceneRenderer renderer(*scene, options.threads);
     LightComparison comparison{.scenario = name, .off = {}, .on = {}};

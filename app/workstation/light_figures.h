@@ -20,8 +20,9 @@ struct LightComparison {
 
 struct LightRunOptions {
   std::filesystem::path out;
-  std::uint64_t ticks = 0;  // of each scenario, at most; 0: all
-  unsigned threads = 0;     // for rendering; 0: as many as the machine has
+  std::uint64_t ticks = 0;     // of each scenario, at most; 0: all
+  double frame_rate_hz = 0.0;  // in place of the scenarios', for as many seconds; 0: theirs
+  unsigned threads = 0;        // for rendering; 0: as many as the machine has
   // Called with what is being done now; false ends the runs with an error.
   std::function<bool(const std::string&)> go_on;
 };

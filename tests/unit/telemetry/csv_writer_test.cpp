@@ -45,7 +45,7 @@ class CsvFile : public testing::Test {
 TEST_F(CsvFile, EveryColumnHasANameOfItsOwn) {
   EXPECT_EQ(std::set<std::string>(names_.begin(), names_.end()).size(), names_.size());
   EXPECT_EQ(names_.size(),
-            9U + 8 + 21 + 3 * (5 + 2 * 5) + 2 * (13 + 7) + 15 + 8 + (1 + 7 + 21 + 6 + 6 + 2));
+            9U + 8 + 21 + 3 * (5 + 2 * 5) + 2 * (13 + 8) + 15 + 8 + (1 + 7 + 21 + 6 + 6 + 2));
 }
 
 TEST_F(CsvFile, ATickWithAPoseHasItsNumbers) {
@@ -99,6 +99,19 @@ TEST_F(CsvFile, CamerasAndAcquisitionAreThere) {
   EXPECT_EQ(row.at("relock"), "better_elsewhere");
   EXPECT_EQ(row.at("candidate_false_lock_probability"), "0.25");
   EXPECT_EQ(row.at("false_lock_probability"), "0.125");
+}
+
+TEST_F(CsvFile, EachCamerasLightIsThere) {
+  const Row row = this->row(1);
+  EXPECT_EQ(row.at("left_peak_dn"), "180");
+  EXPECT_EQ(row.at("left_light"), "steady");
+  EXPECT_EQ(row.at("left_iris_condition"), "at_end");
+  EXPECT_EQ(row.at("left_exposure_ms"), "2.5");
+  EXPECT_EQ(row.at("left_gain"), "1.5");
+  EXPECT_EQ(row.at("left_iris"), "0.75");
+  EXPECT_EQ(row.at("right_light"), "off");
+  EXPECT_EQ(row.at("right_iris_condition"), "automatic");
+  EXPECT_EQ(row.at("right_exposure_ms"), "");
 }
 
 TEST_F(CsvFile, HowTheVehicleMovesIsThere) {

@@ -35,6 +35,12 @@ inline CycleRecord record_with_pose(std::uint64_t tick) {
   left.rejected_sight = 2;
   left.sightings = 5;
   result.cameras[1].overflow = true;
+  exposure::CameraLight& light = record.light[0];
+  light.state = exposure::LightState::steady;
+  light.iris = exposure::IrisCondition::at_end;
+  light.setting = {std::chrono::microseconds(2500), 1.5};
+  light.opening = 0.75;
+  light.peak_dn = 180;
   result.relock = core::Relock::better_elsewhere;
   result.acquisition.pairs_tested = 1234;
   result.acquisition.ticks = 2;
