@@ -5,23 +5,19 @@
 #include <array>
 #include <utility>
 
+#include "app/workstation/calibrate/from_pictures.h"
 #include "app/workstation/loop_files.h"
 #include "app/workstation/sim_run.h"
 #include "app/workstation/trials.h"
+#include "host_sim/scenarios/calibration_files.h"
 #include "host_sim/scenarios/scenario_file.h"
 #include "host_sim/scenarios/scene_renderer.h"
-#include "host_sim/survey/calibration.h"
 #include "host_sim/world/rover.h"
 
 namespace dottrack::workstation {
 namespace {
 
 using host_sim::Scene;
-
-// Surveyed dots on the floor and the walls, of which each camera is fitted to the 60 or fewer that
-// it sees; their survey is good to a millimetre.
-constexpr std::size_t kCalibrationDots = 600;
-constexpr double kDotsUpTo_m = 2.5;
 
 constexpr std::array kBoth = {Models::perfect, Models::calibrated};
 
@@ -35,17 +31,6 @@ Result<Scene> load(const std::string& name) {
   return host_sim::load_scenario(*file, {});
 }
 
-Result<std::vector<host_sim::SimCamera>> told_cameras(const Scene& scene, Models models) {
-  std::vector<host_sim::SimCamera> cameras;
-  for (const host_sim::SceneCamera& camera : scene.cameras) cameras.push_back(camera.camera);
-  if (models == Models::perfect) return cameras;
-  host_sim::CalibrationOptions options;
-  options.seed = scene.seed;
-  const auto dots = host_sim::calibration_dots(scene.length_m, scene.width_m, kDotsUpTo_m,
-                                               kCalibrationDots, scene.seed);
-  return host_sim::calibrated(cameras, dots, options);
-}
-
 void put_dots(Scene& scene, int dots) {
   scene.target = host_sim::random_layout(dots, scene.seed);
   scene.world.bodies[*scene.vehicle].model = host_sim::make_rover(scene.target);
@@ -55,6 +40,28 @@ class Runner {
  public:
   explicit Runner(const ExperimentOptions& options) : options_(options) {}
 
+  // Pictures of surveyed dots, and camera models from them.
+  Result<void> calibration() {
+    const Result<Scene> scene = load("calibration");
+    if (!scene) return tl::unexpected<Error>(scene.error());
+    const std::filesystem::path pictures = options_.out / "calibration";
+    if (auto done = make_folder(pictures); !done) return done;
+    const auto wrong = host_sim::write_calibration(*scene, {.seed = scene->seed}, pictures);
+    if (!wrong) return tl::unexpected<Error>(wrong.error());
+    if (auto done = take_pictures(*scene, pictures); !done) return done;
+    calibrate::PictureRequest request;
+    request.dots = pictures / "dots.csv";
+    request.inputs.images = pictures;
+    request.inputs.rig = pictures / "approximate" / "rig.toml";
+    request.observe.threads = request.calibrate.threads = options_.threads;
+    request.go_on = [&](double part) {
+      return go_on(fmt::format("calibration: {:.0f} %", 100.0 * part));
+    };
+    const auto done = calibrate::calibrate_pictures(request);
+    if (!done) return tl::unexpected<Error>(done.error());
+    return calibrate::write_calibration(*done, {}, models_folder());
+  }
+
   // The scenario under both kinds of models; `keep` takes what each run comes to.
   template <class Keep>
   Result<void> scenario(const std::string& name, Keep keep) {
@@ -62,11 +69,9 @@ class Runner {
     if (!scene) return tl::unexpected<Error>(scene.error());
     host_sim::SceneRenderer renderer(*scene, options_.threads);
     for (const Models models : kBoth) {
-      const auto told = told_cameras(*scene, models);
-      if (!told) return tl::unexpected<Error>(told.error());
       SimOptions sim;
       sim.out = options_.out / fmt::format("{}_{}", name, name_of(models));
-      sim.models = *told;
+      if (models == Models::calibrated) sim.models = models_folder();
       sim.go_on = [&](std::uint64_t done) {
         return go_on(
             fmt::format("{}, {} models: tick {} of {}", name, name_of(models), done, scene->ticks));
@@ -102,6 +107,20 @@ class Runner {
   }
 
  private:
+  std::filesystem::path models_folder() const { return options_.out / "models"; }
+
+  Result<void> take_pictures(const Scene& scene, const std::filesystem::path& folder) const {
+    host_sim::SceneRenderer renderer(scene, options_.threads);
+    SimOptions sim;
+    sim.out = options_.out / "calibration_run";
+    sim.record = folder;
+    sim.pictures = false;
+    const auto run = simulate(scene, renderer, sim);
+    if (!run) return tl::unexpected<Error>(run.error());
+    if (!run->loop.output_fault.empty()) return fail(run->loop.output_fault);
+    return {};
+  }
+
   static tl::unexpected<Error> stopped() {
     return fail("stopped before the experiments were done");
   }
@@ -117,7 +136,9 @@ Result<Experiments> run_experiments(const ExperimentOptions& options) {
   if (const auto made = make_folder(options.out); !made) return tl::unexpected<Error>(made.error());
   Experiments all;
   Runner runner(options);
-  auto done = runner.scenario("survey_grid", [&](Models m, const Scene& scene, const auto& run) {
+  auto done = runner.calibration();
+  if (!done) return tl::unexpected<Error>(done.error());
+  done = runner.scenario("survey_grid", [&](Models m, const Scene& scene, const auto& run) {
     all.survey[static_cast<int>(m)] = survey_figures(run.rows, scene.spans);
   });
   if (!done) return tl::unexpected<Error>(done.error());

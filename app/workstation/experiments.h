@@ -19,7 +19,7 @@ namespace dottrack::workstation {
 // What the tracker is told of its cameras.
 enum class Models : std::uint8_t {
   perfect,     // the truth
-  calibrated,  // fitted to dots that were surveyed with errors
+  calibrated,  // of `dottrack calibrate`: from pictures of dots surveyed to a millimetre
 };
 
 // One of the paper's experiments under one kind of models. Millimetres.

@@ -7,5 +7,5 @@ dottrack_library(workstation_sim
           sim_plots.cpp sim_run.cpp trial.cpp trial_file.cpp
           trial_summary.cpp trials.cpp
   USES dottrack::workstation_figures dottrack::workstation_replay dottrack::host_sim_scenarios
-       dottrack::host_sim_hal dottrack::host_sim_survey)
+       dottrack::host_sim_hal dottrack::workstation_calibrate)
 list(APPEND workstation_uses dottrack::workstation_sim)

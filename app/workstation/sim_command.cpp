@@ -31,6 +31,7 @@ struct SimCommand {
   fs::path out;
   fs::path record;
   fs::path calibration;
+  fs::path models;
   host_sim::SurveyOptions survey;
   std::optional<std::uint64_t> seed;
   std::optional<std::uint64_t> ticks;
@@ -118,6 +119,7 @@ int run_scene(const host_sim::Scene& scene, const SimCommand& command) {
   options.out = command.out;
   options.record = command.calibration.empty() ? command.record : command.calibration;
   options.pictures = command.pictures;
+  options.models = command.models;
   if (command.explain) options.explain = print_text;
   host_sim::SceneRenderer renderer(scene, command.threads);
   std::optional<Progress> progress;
@@ -249,6 +251,9 @@ void add_sim_command(CLI::App& app, int& exit_status) {
   sub->add_option("--ticks", command->ticks, "Another length than the scenario's");
   auto* const record = sub->add_option("--record", command->record,
                                        "Folder for the frames, as `dottrack replay` reads them");
+  sub->add_option("--models", command->models,
+                  "Folder with what the tracker is told of its cameras, <camera>.cahvor as "
+                  "`dottrack calibrate` writes them; without it the truth");
   add_calibration_options(*sub, *command, *record);
   add_trial_options(*sub, *command, *record);
   sub->add_option("--threads", command->threads, "For rendering; 0: as many as the machine has")

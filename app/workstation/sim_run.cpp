@@ -185,9 +185,10 @@ Result<SimSummary> simulate(const Scene& scene, host_sim::SceneRenderer& rendere
   Result<LoopFiles> files = open_loop_files(options.out, std::make_unique<rtos::VirtualClock>());
   if (!files) return tl::unexpected<Error>(files.error());
   const fs::path rig = options.out / "rig";
-  if (auto done = host_sim::write_rig(scene, rig, options.models); !done) {
-    return tl::unexpected<Error>(done.error());
-  }
+  const auto told = options.models.empty()
+                        ? host_sim::write_rig(scene, rig)
+                        : host_sim::write_calibrated_rig(scene, rig, options.models);
+  if (!told) return tl::unexpected<Error>(told.error());
   const Result<config::RigConfig> config = config::load_rig(rig / "rig.toml");
   if (!config) return tl::unexpected<Error>(config.error());
   Result<telemetry::OutputFile> truth_tum =

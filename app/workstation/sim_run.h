@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -21,8 +20,9 @@ struct SimOptions {
   std::filesystem::path out;
   std::filesystem::path record;  // where the frames go, as `replay` reads them; empty: nowhere
   bool pictures = true;          // overlay pictures and plots
-  // What the tracker is told of its cameras, in the scene's order; empty: the truth.
-  std::span<const host_sim::SimCamera> models;
+  // Folder with what the tracker is told of its cameras (host_sim::write_calibrated_rig); empty:
+  // the truth.
+  std::filesystem::path models;
   // Takes why ticks have no pose, for a person; empty function: nobody asks.
   std::function<void(const std::string&)> explain;
   telemetry::RecordWriter* more = nullptr;  // takes every tick's record, too

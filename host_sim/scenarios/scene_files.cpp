@@ -69,8 +69,8 @@ std::string exposure_toml(const SceneCamera& camera) {
   return fmt::format("exposure_ms = {:.6g}\ngain = {:.6g}\n", 1e3 * camera.exposure_s, camera.gain);
 }
 
-// `models`: one a camera.
-std::string rig_toml(const Scene& scene, std::span<const SimCamera> models) {
+// `models`: files, one a camera.
+std::string rig_toml(const Scene& scene, std::span<const std::string> models) {
   const DotAppearance& dots = scene.appearance;
   std::string text = fmt::format("[rig]\nname = \"{}\"\nframe_rate_hz = {:.17g}\n", scene.name,
                                  scene.frame_rate_hz);
@@ -82,8 +82,8 @@ std::string rig_toml(const Scene& scene, std::span<const SimCamera> models) {
         "intensity_dn = [{3}, {4}]\nmin_contrast_dn = {5}\n"
         "min_contrast_part = {8}\nbackground_px = {6}\n",
         camera.name, dots.distance_min_m, dots.distance_max_m, dots.intensity_min_dn,
-        dots.intensity_max_dn, dots.min_contrast_dn, dots.background_px,
-        model_file(camera.name, models[i].lens()), dots.min_contrast_part);
+        dots.intensity_max_dn, dots.min_contrast_dn, dots.background_px, models[i],
+        dots.min_contrast_part);
     if (scene.light_control) text += exposure_toml(camera);
   }
   text += fmt::format(
@@ -105,7 +105,41 @@ std::string target_csv(const TargetLayout& dots) {
   return text;
 }
 
+Result<void> write_target_and_rig(const Scene& scene, const fs::path& folder,
+                                  std::span<const std::string> models) {
+  if (auto done = write_bytes(folder / "target.csv", target_csv(scene.target)); !done) return done;
+  return write_bytes(folder / "rig.toml", rig_toml(scene, models));
+}
+
+Result<std::string> find_model(const fs::path& folder, const std::string& camera) {
+  for (const char* kind : {".cahv", ".cahvor", ".cahvore"}) {
+    if (fs::is_regular_file(folder / (camera + kind))) return camera + kind;
+  }
+  return fail(fmt::format("{}: no model of camera {}; expected {}.cahv, .cahvor or .cahvore",
+                          folder.string(), camera, camera));
+}
+
+Result<void> copy_model(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
+  if (error) return fail(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
+  return {};
+}
+
 }  // namespace
+
+Result<void> write_calibrated_rig(const Scene& scene, const fs::path& folder,
+                                  const fs::path& models) {
+  if (auto made = make_folder(folder); !made) return made;
+  std::vector<std::string> files;
+  for (const SceneCamera& camera : scene.cameras) {
+    const auto file = find_model(models, camera.name);
+    if (!file) return tl::unexpected<Error>(file.error());
+    if (auto done = copy_model(models / *file, folder / *file); !done) return done;
+    files.push_back(*file);
+  }
+  return write_target_and_rig(scene, folder, files);
+}
 
 Result<void> write_rig(const Scene& scene, const fs::path& folder,
                        std::span<const SimCamera> models) {
@@ -115,14 +149,14 @@ Result<void> write_rig(const Scene& scene, const fs::path& folder,
   if (models.empty()) {
     for (const SceneCamera& camera : scene.cameras) told.push_back(camera.camera);
   }
+  std::vector<std::string> files;
   for (std::size_t i = 0; i < told.size(); ++i) {
     const std::string& name = scene.cameras[i].name;
+    files.push_back(model_file(name, told[i].lens()));
     const std::string text = camera_text(told[i], "simulated ceiling camera " + name);
-    if (auto done = write_bytes(folder / model_file(name, told[i].lens()), text); !done)
-      return done;
+    if (auto done = write_bytes(folder / files.back(), text); !done) return done;
   }
-  if (auto done = write_bytes(folder / "target.csv", target_csv(scene.target)); !done) return done;
-  return write_bytes(folder / "rig.toml", rig_toml(scene, told));
+  return write_target_and_rig(scene, folder, files);
 }
 
 Result<void> write_pgm(const fs::path& file, const ImageView& image) {

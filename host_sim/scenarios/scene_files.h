@@ -15,6 +15,11 @@ namespace dottrack::host_sim {
 Result<void> write_rig(const Scene& scene, const std::filesystem::path& folder,
                        std::span<const SimCamera> models = {});
 
+// The same with copies of other files as its models: <camera>.cahv, .cahvor or .cahvore of the
+// folder `models`, as a calibration leaves them. An error names the camera that has none.
+Result<void> write_calibrated_rig(const Scene& scene, const std::filesystem::path& folder,
+                                  const std::filesystem::path& models);
+
 // A binary 8-bit PGM.
 Result<void> write_pgm(const std::filesystem::path& file, const ImageView& image);
 

@@ -12,6 +12,8 @@
 namespace dottrack::host_sim {
 namespace {
 
+namespace fs = std::filesystem;
+
 std::string contents(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
@@ -63,6 +65,26 @@ TEST(SceneFilesTest, OtherModelsMayBeToldThanTheTruth) {
   EXPECT_NE(contents(folder.path() / "true/cam1.cahvor"), "");
   EXPECT_NE(contents(folder.path() / "true/cam1.cahvor"),
             contents(folder.path() / "told/cam1.cahvor"));
+}
+
+TEST(SceneFilesTest, ModelsMayComeFromACalibration) {
+  const test::TemporaryFolder folder;
+  const Scene scene = scene_with("radial");
+  for (const SceneCamera& camera : scene.cameras) {
+    folder.write("models/" + camera.name + ".cahv", "the model of " + camera.name);
+  }
+  const fs::path rig = folder.path() / "rig";
+  ASSERT_TRUE(write_calibrated_rig(scene, rig, folder.path() / "models"));
+  for (const SceneCamera& camera : scene.cameras) {
+    EXPECT_EQ(contents(rig / (camera.name + ".cahv")), "the model of " + camera.name);
+    EXPECT_NE(contents(rig / "rig.toml").find("model = \"" + camera.name + ".cahv\""),
+              std::string::npos);
+  }
+  fs::remove(folder.path() / "models" / (scene.cameras[1].name + ".cahv"));
+  const auto result = write_calibrated_rig(scene, rig, folder.path() / "models");
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().message.find(scene.cameras[1].name), std::string::npos);
+  EXPECT_NE(result.error().message.find("models"), std::string::npos);
 }
 
 TEST(SceneFilesTest, APgmIsItsHeaderAndItsPixelsRowByRow) {
