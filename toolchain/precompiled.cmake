@@ -44,9 +44,7 @@ endfunction()
 
 if(DOTTRACK_PRECOMPILE)
   dottrack_precompile(precompiled HEADERS ${precompiled_headers})
-  if(DOTTRACK_SANITIZE)
-    dottrack_precompile(precompiled_quick QUICK HEADERS ${precompiled_headers})
-  endif()
+  dottrack_precompile(precompiled_quick QUICK HEADERS ${precompiled_headers})
   if(DOTTRACK_TESTS)
     find_package(GTest REQUIRED)
     set(for_tests HEADERS ${precompiled_headers} ${precompiled_test_headers}

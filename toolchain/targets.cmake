@@ -16,13 +16,11 @@ function(dottrack_library name)
   add_library(dottrack::${name} ALIAS dottrack_${name})
 endfunction()
 
-# dottrack_quick_to_sanitize(TARGET): its sources are many lines around few instructions; with a
-# sanitizer, optimising the checks takes longer than running them ever does.
-function(dottrack_quick_to_sanitize target)
-  if(DOTTRACK_SANITIZE)
-    target_compile_options(${target} PRIVATE ${dottrack_quick})
-    dottrack_read_precompiled(${target} precompiled_quick)
-  endif()
+# dottrack_quick_target(TARGET): its sources are many lines around few instructions; optimising them,
+# or a sanitizer's checks in them, takes longer than running them ever does.
+function(dottrack_quick_target target)
+  target_compile_options(${target} PRIVATE ${dottrack_quick})
+  dottrack_read_precompiled(${target} precompiled_quick)
 endfunction()
 
 # dottrack_test(NAME [COMPUTES] SOURCES file... [USES target...] [LABELS label...]): one GoogleTest
