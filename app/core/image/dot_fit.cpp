@@ -8,6 +8,7 @@
 #include "app/core/image/centre_information.h"
 #include "app/core/image/dot_patch.h"
 #include "app/core/image/dot_verdict.h"
+#include "app/core/image/outline_integrals.h"
 #include "app/core/image/outline_sums.h"
 #include "app/core/image/ring_sums.h"
 #include "app/core/image/shape_information.h"
@@ -167,18 +168,39 @@ class Fitting {
     const double prior = noise2 * blur_prior();
     for (int round = 1; round <= kRounds; ++round) {
       ResidualSums sums;
-      DerivativeSums derivatives;
-      sum_derivatives(pixels_, model_, sums, derivatives);
-      const ShapeInformation shape(model_, derivatives, window_.count, prior);
-      if (!shape.ok() || !take(step(sums, shape, prior))) return false;
+      sum_gradient(pixels_, model_, sums);
+      const Outline first(model_.shape);
+      const OutlineIntegrals integrals = integrate(model_, first);
+      const ShapeInformation shape(model_, first, integrals, window_.count, prior);
+      if (!shape.ok()) return false;
+      const CentreInformation centre(model_, first, integrals, window_);
+      if (!take(step(sums, centre, shape, prior), first)) return false;
       sum_residuals(pixels_, model_, sums);
-      const Step last = step(sums, shape, prior);
-      set_left(sums, last, noise2);
-      left_.shape_covariance = shape.covariance().topLeftCorner<3, 3>();
-      if (!take(last) || !determined()) return false;
-      if (last.gain_dn2 <= kConverged * noise2) break;
+      if (!finish(sums, shape, prior, noise2)) return false;
+      if (left_.gain_dn2 <= kConverged * noise2) break;
     }
     return true;
+  }
+
+  bool finish(const ResidualSums& sums, const ShapeInformation& shape, double prior,
+              double noise2) {
+    const Outline outline(model_.shape);
+    const OutlineIntegrals integrals = integrate(model_, outline);
+    const CentreInformation centre(model_, outline, integrals, window_);
+    const Step last = step(sums, centre, shape, prior);
+    left_.pixels = pixels_.count;
+    left_.area_px2 = centre.area_px2();
+    left_.length_px = integrals[OutlineIntegrals::kLength];
+    left_.ring_noise_dn2 = noise2;
+    left_.gain_dn2 = last.gain_dn2;
+    left_.chi2_dn2 = sums[ResidualSums::kRr] - last.gain_dn2;
+    left_.covered_chi2_dn2 = sums[ResidualSums::kRre];
+    left_.edge_chi2_dn2 =
+        sums[ResidualSums::kRrp] - kEdgeShare * std::min(last.gain_dn2, kMaxGain * noise2);
+    left_.asymmetry_dn2 = centre.asymmetry(model_, outline, sums, last.centre);
+    left_.centre_covariance = centre.covariance();
+    left_.shape_covariance = shape.covariance().topLeftCorner<3, 3>();
+    return take(last, outline) && determined();
   }
 
   // Cut off by the image's end, the ring may say too little.
@@ -198,14 +220,13 @@ class Fitting {
   }
 
   struct Step {
-    CentreInformation information;
     CentreVector centre;
     ShapeInformation::Vector shape;
     double gain_dn2;  // of the sum of squares
   };
 
-  Step step(const ResidualSums& sums, const ShapeInformation& shape, double prior) const {
-    CentreInformation information(model_, window_);
+  Step step(const ResidualSums& sums, const CentreInformation& information,
+            const ShapeInformation& shape, double prior) const {
     CentreVector centre;
     ShapeInformation::Vector even = ShapeInformation::gradient(model_, sums);
     even[3] += prior * (kUsualBlur_px - model_.blur_px);
@@ -215,7 +236,7 @@ class Fitting {
     const ShapeInformation::Vector shape_step = shape.covariance() * even;
     const double gain = centre.centre.dot(centre_step.centre) +
                         centre.slope.dot(centre_step.slope) + even.dot(shape_step);
-    return {information, centre_step, shape_step, gain};
+    return {centre_step, shape_step, gain};
   }
 
   // The ring's pixels have no part in the dot: their residuals follow from their sums.
@@ -237,7 +258,7 @@ class Fitting {
     slope_gradient = ring_place + dot_place + dot_r * model_.centre - level_gradient * window_.mean;
   }
 
-  bool take(const Step& step) {
+  bool take(const Step& step, const Outline& outline) {
     const double at_mean =
         model_.background_dn + model_.slope_dn.dot(window_.mean - model_.centre) + step.shape[5];
     model_.centre += step.centre.centre;
@@ -245,34 +266,21 @@ class Fitting {
     model_.background_dn = at_mean + model_.slope_dn.dot(model_.centre - window_.mean);
     model_.contrast_dn += step.shape[4];
     model_.blur_px = std::clamp(model_.blur_px + step.shape[3], kMinBlur_px, kMaxBlur_px);
-    change_shape(step);
+    change_shape(step, outline);
     const Vector2d off = centre_px() - region_.centroid_px;
     return model_.shape.allFinite() && std::abs(model_.contrast_dn) >= kMinContrast_dn &&
            off.norm() <= 0.5 * region_.semi_major_px + 0.5;
   }
 
   // By a strain of the outline, which is closer to linear than A, and leaves it an ellipse.
-  void change_shape(const Step& step) {
-    const Matrix2d& root = step.information.root();
+  void change_shape(const Step& step, const Outline& outline) {
+    const Matrix2d& root = outline.root;
     Matrix2d change;
     change << step.shape[0], step.shape[1], step.shape[1], step.shape[2];
     Matrix2d strain = root.transpose() * change * root;
     strain *= std::min(1.0, kMaxStrain / std::max(strain.norm(), 1e-9));
     const Matrix2d strained = root * (Matrix2d::Identity() - 0.5 * strain);
     model_.shape = (strained * strained.transpose()).inverse();
-  }
-
-  void set_left(const ResidualSums& sums, const Step& step, double noise2) {
-    left_.pixels = pixels_.count;
-    left_.area_px2 = step.information.area_px2();
-    left_.length_px = step.information.length_px();
-    left_.ring_noise_dn2 = noise2;
-    left_.chi2_dn2 = sums[ResidualSums::kRr] - step.gain_dn2;
-    left_.covered_chi2_dn2 = sums[ResidualSums::kRre];
-    left_.edge_chi2_dn2 =
-        sums[ResidualSums::kRrp] - kEdgeShare * std::min(step.gain_dn2, kMaxGain * noise2);
-    left_.asymmetry_dn2 = step.information.asymmetry(model_, sums, step.centre);
-    left_.centre_covariance = step.information.covariance();
   }
 
   const ImageView& image_;

@@ -14,6 +14,7 @@ struct LeftOver {
   double area_px2 = 0.0;          // of the outline
   double length_px = 0.0;         // of the outline
   double ring_noise_dn2 = 0.0;    // variance of the background
+  double gain_dn2 = 0.0;          // what the last step took off the sum of squares
   double chi2_dn2 = 0.0;          // sum of squares
   double covered_chi2_dn2 = 0.0;  // the part that lies within the outline
   double edge_chi2_dn2 = 0.0;     // weighed with the normal density at the distance to it

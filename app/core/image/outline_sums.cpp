@@ -8,16 +8,17 @@
 // After foreach_target.h, by its rules.
 #include <hwy/highway.h>
 
+#include "app/core/image/lane_totals-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace dottrack::image {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
 using Lanes = hn::CappedTag<float, DotPixels::kBlock>;
 using Vector = hn::Vec<Lanes>;
 constexpr Lanes kLanes;
 constexpr int kStep = static_cast<int>(MaxLanes(Lanes()));
 constexpr int kBlock = DotPixels::kBlock;
+static_assert(kSumLanes == static_cast<std::size_t>(kBlock));
 
 HWY_INLINE Vector all(double value) {
   return hn::Set(kLanes, static_cast<float>(value));
@@ -120,10 +121,10 @@ HWY_INLINE Place place_at(const LaneModel& model, Vector x, Vector y) {
   const Vector g2_off = hn::Add(g2, hn::Mul(model.trace, all(0.5e-4)));
   const Vector q_off = hn::Add(q, tiny);
   const Vector per_h2 = hn::Div(g2_off, q_off);
-  const Vector h = hn::Sqrt(hn::Div(q_off, g2_off));
-  const Vector m = hn::Sqrt(hn::Add(q, hn::Mul(model.blur2, hn::Sub(model.trace, per_h2))));
-  const Vector z = hn::Mul(hn::Sub(h, hn::Mul(h, m)), model.per_blur);
-  return {x, y, z, hn::Div(h, m)};
+  const Vector m2 = hn::Add(q, hn::Mul(model.blur2, hn::Sub(model.trace, per_h2)));
+  const Vector h_per_m = hn::Div(all(1.0), hn::Sqrt(hn::Mul(per_h2, m2)));
+  const Vector z = hn::Mul(hn::Mul(h_per_m, model.per_blur), hn::Sub(hn::Sqrt(m2), m2));
+  return {x, y, z, h_per_m};
 }
 
 // The places of some blocks. They are worked out before anything is summed: then many roots and
@@ -176,7 +177,7 @@ class LaneSums {
     for (Vector& sum : of_) sum = hn::Zero(kLanes);
   }
   HWY_INLINE void add(std::size_t term, Vector value) { of_[term] = hn::Add(of_[term], value); }
-  HWY_INLINE void store(int first, std::array<std::array<float, kBlock>, kTerms>& to) const {
+  HWY_INLINE void store(int first, SumLanes<kTerms>& to) const {
     for (std::size_t i = 0; i < kTerms; ++i) hn::StoreU(of_[i], kLanes, to[i].data() + first);
   }
 
@@ -248,50 +249,6 @@ HWY_INLINE void add_failing_edge(const Compared& at, Sums& sums) {
   sums.add(ResidualSums::kRrp, hn::Mul(at.r, hn::Mul(at.r, at.edge.p)));
 }
 
-template <class Sums>
-HWY_INLINE void add_derivatives(const Compared& at, Sums& sums) {
-  sums.add(DerivativeSums::kEe, hn::Mul(at.edge.e, at.edge.e));
-  sums.add(DerivativeSums::kE, at.edge.e);
-}
-
-template <class Sums>
-HWY_INLINE void add_derivatives_edge(const Compared& at, Sums& sums) {
-  using Term = DerivativeSums;
-  const Vector e = at.edge.e;
-  const Vector pz = hn::Mul(at.edge.p, at.edge.z);
-  const Vector wx = hn::Mul(at.edge.w, at.x);
-  const Vector wxx = hn::Mul(wx, at.x);
-  const Vector wxy = hn::Mul(wx, at.y);
-  const Vector wyy = hn::Mul(hn::Mul(at.edge.w, at.y), at.y);
-  sums.add(Term::kWxxxx, hn::Mul(wxx, wxx));
-  sums.add(Term::kWxxxy, hn::Mul(wxx, wxy));
-  sums.add(Term::kWxxyy, hn::Mul(wxy, wxy));
-  sums.add(Term::kWxyyy, hn::Mul(wxy, wyy));
-  sums.add(Term::kWyyyy, hn::Mul(wyy, wyy));
-  sums.add(Term::kWxx, wxx);
-  sums.add(Term::kWxy, wxy);
-  sums.add(Term::kWyy, wyy);
-  sums.add(Term::kEwxx, hn::Mul(e, wxx));
-  sums.add(Term::kEwxy, hn::Mul(e, wxy));
-  sums.add(Term::kEwyy, hn::Mul(e, wyy));
-  sums.add(Term::kPzwxx, hn::Mul(pz, wxx));
-  sums.add(Term::kPzwxy, hn::Mul(pz, wxy));
-  sums.add(Term::kPzwyy, hn::Mul(pz, wyy));
-  sums.add(Term::kPzpz, hn::Mul(pz, pz));
-  sums.add(Term::kPze, hn::Mul(pz, e));
-  sums.add(Term::kPz, pz);
-}
-
-// Lane i of every block goes to sum i, however many lanes are worked on at a time.
-template <std::size_t kTerms>
-HWY_INLINE void total(const std::array<std::array<float, kBlock>, kTerms>& lanes, double* sums) {
-  for (std::size_t i = 0; i < kTerms; ++i) {
-    const auto& l = lanes[i];
-    sums[i] =
-        static_cast<double>(((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7])));
-  }
-}
-
 // Calls add with every vector of pixels that begins at lane `part` of its block.
 template <class Add>
 HWY_INLINE void compare_all(const DotPixels& pixels, const LaneModel& model, int part, Add add) {
@@ -305,54 +262,52 @@ HWY_INLINE void compare_all(const DotPixels& pixels, const LaneModel& model, int
   }
 }
 
+struct GradientSums {
+  static constexpr std::size_t kTerms = ResidualSums::kCommon;
+
+  HWY_INLINE GradientSums() {}
+  HWY_INLINE void operator()(const Compared& at) {
+    add_common(at, sums);
+    if (at.edge.any) add_common_edge(at, sums);
+  }
+  LaneSums<kTerms> sums;
+};
+
 struct AllSums {
-  HWY_INLINE void operator()(const Compared& at) const {
+  static constexpr std::size_t kTerms = ResidualSums::kTerms;
+
+  HWY_INLINE AllSums() {}
+  HWY_INLINE void operator()(const Compared& at) {
     add_common(at, sums);
     add_failing(at, sums);
     if (!at.edge.any) return;
     add_common_edge(at, sums);
     add_failing_edge(at, sums);
   }
-  LaneSums<ResidualSums::kTerms>& sums;
+  LaneSums<kTerms> sums;
 };
 
-void sum_all(const DotPixels& pixels, const OutlineModel& of, ResidualSums& residuals) {
+template <class Adding>
+HWY_INLINE void sum(const DotPixels& pixels, const OutlineModel& of, ResidualSums& residuals) {
+  constexpr std::size_t kTerms = Adding::kTerms;
   const LaneModel model(of);
-  std::array<std::array<float, kBlock>, ResidualSums::kTerms> lanes;
+  SumLanes<kTerms> lanes{};
   for (int part = 0; part < kBlock; part += kStep) {
-    LaneSums<ResidualSums::kTerms> sums;
-    compare_all(pixels, model, part, AllSums{sums});
-    sums.store(part, lanes);
+    Adding adding;
+    compare_all(pixels, model, part, [&](const Compared& at) { adding(at); });
+    adding.sums.store(part, lanes);
   }
-  total(lanes, residuals.of.data());
+  std::array<double, kTerms> totals;
+  total<kTerms>(lanes, totals);
+  std::copy(totals.begin(), totals.end(), residuals.of.begin());
 }
 
-struct BothSums {
-  HWY_INLINE void operator()(const Compared& at) const {
-    add_common(at, residuals);
-    add_derivatives(at, derivatives);
-    if (!at.edge.any) return;
-    add_common_edge(at, residuals);
-    add_derivatives_edge(at, derivatives);
-  }
-  LaneSums<ResidualSums::kCommon>& residuals;
-  LaneSums<DerivativeSums::kTerms>& derivatives;
-};
+void sum_common(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals) {
+  sum<GradientSums>(pixels, model, residuals);
+}
 
-void sum_both(const DotPixels& pixels, const OutlineModel& of, ResidualSums& residuals,
-              DerivativeSums& derivatives) {
-  const LaneModel model(of);
-  std::array<std::array<float, kBlock>, ResidualSums::kCommon> lanes;
-  std::array<std::array<float, kBlock>, DerivativeSums::kTerms> derivative_lanes;
-  for (int part = 0; part < kBlock; part += kStep) {
-    LaneSums<ResidualSums::kCommon> sums;
-    LaneSums<DerivativeSums::kTerms> derivative_sums;
-    compare_all(pixels, model, part, BothSums{sums, derivative_sums});
-    sums.store(part, lanes);
-    derivative_sums.store(part, derivative_lanes);
-  }
-  total(lanes, residuals.of.data());
-  total(derivative_lanes, derivatives.of.data());
+void sum_all(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals) {
+  sum<AllSums>(pixels, model, residuals);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -364,7 +319,7 @@ namespace dottrack::image {
 
 HWY_EXPORT(list);
 HWY_EXPORT(sum_all);
-HWY_EXPORT(sum_both);
+HWY_EXPORT(sum_common);
 
 bool list_pixels(const ImageView& patch, const PatchRows& rows, DotPixels& pixels) {
   return HWY_DYNAMIC_DISPATCH(list)(patch, rows, pixels);
@@ -374,9 +329,8 @@ void sum_residuals(const DotPixels& pixels, const OutlineModel& model, ResidualS
   HWY_DYNAMIC_DISPATCH(sum_all)(pixels, model, residuals);
 }
 
-void sum_derivatives(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals,
-                     DerivativeSums& derivatives) {
-  HWY_DYNAMIC_DISPATCH(sum_both)(pixels, model, residuals, derivatives);
+void sum_gradient(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals) {
+  HWY_DYNAMIC_DISPATCH(sum_common)(pixels, model, residuals);
 }
 
 }  // namespace dottrack::image

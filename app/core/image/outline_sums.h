@@ -64,25 +64,9 @@ struct ResidualSums {
   double operator[](Term term) const { return of[term]; }
 };
 
-// Sums of products of the model's derivatives, as above without r; wxxyy is w^2 x^2 y^2 and so on.
-struct DerivativeSums {
-  // clang-format off
-  enum Term : std::size_t {
-    kWxxxx, kWxxxy, kWxxyy, kWxyyy, kWyyyy,
-    kWxx, kWxy, kWyy, kEwxx, kEwxy, kEwyy, kPzwxx, kPzwxy, kPzwyy,
-    kPzpz, kPze, kPz, kEe, kE,
-    kTerms
-  };
-  // clang-format on
-  std::array<double, kTerms> of{};
-
-  double operator[](Term term) const { return of[term]; }
-};
-
 // Single precision in lanes; the same on every processor. The first leaves out what follows
 // kCommon.
-void sum_derivatives(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals,
-                     DerivativeSums& derivatives);
+void sum_gradient(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals);
 void sum_residuals(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals);
 
 }  // namespace dottrack::image
