@@ -55,8 +55,7 @@ double CentreInformation::asymmetry(const OutlineModel& model, const Outline& ou
   const double c = model.contrast_dn;
   const double s = model.blur_px;
   const double edge = c * c / (2.0 * kRootPi * s);
-  const Matrix2d light =
-      0.25 * area_ * outline.per_shape + area_ * s * s * Matrix2d::Identity();
+  const Matrix2d light = 0.25 * area_ * outline.per_shape + area_ * s * s * Matrix2d::Identity();
   const double blurred = kBlurredLight * s * s * std::numbers::pi / area_;
   Matrix42 by_centre;
   by_centre << edge * third.third_normal, 0.5 * c * area_ * Matrix2d::Identity();

@@ -81,18 +81,21 @@ class Fitting {
 
  private:
   bool sum_up(const ImageView& patch, const PatchRows& rows) {
-    sums_ = sum_patch(patch, rows);
+    RingMask mask;
+    sums_ = sum_patch(patch, rows, mask);
     if (!fit(sums_.ring, plane_)) return false;
     const GreySums whole = sums_.ring;
-    drop_outliers(patch, rows, rounded(plane_, kOutlierSigmas * plane_.sigma + 1.0), sums_.ring);
-    if (!fit(sums_.ring, plane_)) return false;
-    if (50 * sums_.ring.n < 49 * whole.n) {  // what hid behind the worst of it
-      sums_.ring = whole;
-      drop_outliers(patch, rows, rounded(plane_, kOutlierSigmas * plane_.sigma + 1.0), sums_.ring);
-      if (!fit(sums_.ring, plane_)) return false;
-    }
+    if (!drop_from(whole, patch, mask)) return false;
+    // What hid behind the worst of it.
+    if (50 * sums_.ring.n < 49 * whole.n && !drop_from(whole, patch, mask)) return false;
     set_window();
     return list_pixels(patch, rows, pixels_);
+  }
+
+  bool drop_from(const GreySums& whole, const ImageView& patch, const RingMask& mask) {
+    sums_.ring = whole;
+    drop_outliers(patch, mask, rounded(plane_, kOutlierSigmas * plane_.sigma + 1.0), sums_.ring);
+    return sums_.ring.n == whole.n || fit(sums_.ring, plane_);
   }
 
   void set_window() {

@@ -35,8 +35,8 @@ HWY_INLINE Vector times(Vector a, Vector b) {
   return hn::Mul(a, b);
 }
 
-// Points of the outline, root e, and d place / d angle turned outwards: its length, the speed, is by
-// how much a step of angle is longer along the outline, and h is root's determinant over it.
+// Points of the outline, root e, and d place / d angle turned outwards: its length, the speed, is
+// by how much a step of angle is longer along the outline, and h is root's determinant over it.
 struct Points {
   HWY_INLINE Points(const Outline& outline, int first) {
     const Vector c = hn::LoadU(kLanes, kCosine.data() + first);

@@ -31,18 +31,18 @@ HWY_INLINE Vector grey_of(const std::uint8_t* pixels) {
 }
 
 bool list(const ImageView& patch, const PatchRows& rows, DotPixels& pixels) {
+  if (rows.inner.places.n > DotPixels::kCapacity) return false;
   const Vector iota = hn::Iota(kLanes, 0);
   int count = 0;
   for (int y = 0; y < rows.count; ++y) {
-    const Span span = rows.inner[static_cast<std::size_t>(y)];
-    const int n = span.last - span.first + 1;
-    if (count + n > DotPixels::kCapacity) return false;
-    const std::uint8_t* row = patch.row(y);
+    const int first = rows.inner.before[static_cast<std::size_t>(y)] + 1;
+    const int n = rows.inner.after[static_cast<std::size_t>(y)] - first;
+    const std::uint8_t* row = patch.row(y) + first;
     for (int k = 0; k < n; k += kStep) {
       const auto at = static_cast<std::size_t>(count + k);
-      hn::StoreU(hn::Add(iota, all(span.first + k)), kLanes, pixels.x.data() + at);
+      hn::StoreU(hn::Add(iota, all(first + k)), kLanes, pixels.x.data() + at);
       hn::StoreU(all(y), kLanes, pixels.y.data() + at);
-      hn::StoreU(grey_of(row + span.first + k), kLanes, pixels.grey.data() + at);
+      hn::StoreU(grey_of(row + k), kLanes, pixels.grey.data() + at);
     }
     count += n;
   }

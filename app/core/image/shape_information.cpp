@@ -49,8 +49,8 @@ ShapeInformation::ShapeInformation(const OutlineModel& model, const Outline& out
   const OutlineIntegrals& of = integrals;
   const double area = outline.determinant;
   const double once = -0.5 * model.contrast_dn * area;  // -c/2s, and s det(root) of w's integrals
-  const double twice = 0.25 * model.contrast_dn * model.contrast_dn / model.blur_px * area *
-                       (0.5 * kPerRootPi);
+  const double twice =
+      0.25 * model.contrast_dn * model.contrast_dn / model.blur_px * area * (0.5 * kPerRootPi);
   const double edge = model.contrast_dn / model.blur_px;
   const double trace = model.blur_px * model.blur_px * model.shape.trace();
   const double inside = 2.0 * std::numbers::pi * (1.0 - trace) + 2.0 * of[Term::kTt];
