@@ -53,15 +53,17 @@ DotFit unfitted(const Region& region) {
 
 class Fitting {
  public:
-  Fitting(const ImageView& image, const Region& region) : image_(image), region_(region) {}
+  Fitting(const ImageView& image, const Region& region)
+      : image_(image),
+        region_(region),
+        cosine_(std::cos(region.angle_rad)),
+        sine_(std::sin(region.angle_rad)) {}
 
   bool run() {
-    const double cosine = std::cos(region_.angle_rad);
-    const double sine = std::sin(region_.angle_rad);
     const double outer_px =
         std::min(4.0 + 0.8 * region_.semi_major_px, kMaxReach_px - region_.semi_major_px);
-    const GrownEllipse inner(region_, cosine, sine, kGrow_px);
-    const GrownEllipse outer(region_, cosine, sine, outer_px);
+    const GrownEllipse inner(region_, cosine_, sine_, kGrow_px);
+    const GrownEllipse outer(region_, cosine_, sine_, outer_px);
     const Patch patch = patch_around(image_, region_.centroid_px, outer);
     if (patch.columns() <= 0 || patch.rows() <= 0) return false;
     corner_ = Vector2d(patch.x_min, patch.y_min);
@@ -136,7 +138,7 @@ class Fitting {
     if (!(std::abs(model_.contrast_dn) >= kMinContrast_dn) || !(area > 0.0)) return false;
     const double scale = std::clamp(area / seen, 0.5, 2.0);
     model_.shape =
-        (scale * ellipse_matrix(region_.semi_major_px, region_.semi_minor_px, region_.angle_rad))
+        (scale * ellipse_matrix(region_.semi_major_px, region_.semi_minor_px, cosine_, sine_))
             .inverse();
     return true;
   }
@@ -283,11 +285,14 @@ class Fitting {
     Matrix2d strain = root.transpose() * change * root;
     strain *= std::min(1.0, kMaxStrain / std::max(strain.norm(), 1e-9));
     const Matrix2d strained = root * (Matrix2d::Identity() - 0.5 * strain);
-    model_.shape = (strained * strained.transpose()).inverse();
+    left_.per_shape = strained * strained.transpose();
+    model_.shape = left_.per_shape.inverse();
   }
 
   const ImageView& image_;
   const Region& region_;
+  double cosine_;  // of its angle
+  double sine_;
   Vector2d corner_;
   PatchSums sums_;
   Plane plane_;

@@ -29,7 +29,7 @@ using SumLanes = std::array<std::array<float, kSumLanes>, whole_fours(kTerms)>;
 // Of eight lanes each: ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7)), however many lanes a vector has.
 #if HWY_TARGET == HWY_SCALAR
 template <std::size_t kTerms>
-HWY_INLINE void total(const SumLanes<kTerms>& lanes, std::array<double, kTerms>& sums) {
+HWY_INLINE void total(const SumLanes<kTerms>& lanes, double* sums) {
   for (std::size_t i = 0; i < kTerms; ++i) {
     const auto& l = lanes[i];
     sums[i] =
@@ -38,7 +38,7 @@ HWY_INLINE void total(const SumLanes<kTerms>& lanes, std::array<double, kTerms>&
 }
 #else
 template <std::size_t kTerms>
-HWY_INLINE void total(const SumLanes<kTerms>& lanes, std::array<double, kTerms>& sums) {
+HWY_INLINE void total(const SumLanes<kTerms>& lanes, double* sums) {
   const hn::CappedTag<float, 4> four;
   const auto halves = [&](std::size_t term) {
     const float* of = lanes[term].data();

@@ -100,7 +100,7 @@ void shape(const OutlineModel& model, const Outline& outline, OutlineIntegrals& 
     store(Term::kYyyy, times(twice_yy, yy));
   }
   for (std::size_t i = Term::kTerms; i < lanes.size(); ++i) lanes[i].fill(0.0F);
-  total<Term::kTerms>(lanes, integrals.of);
+  total<Term::kTerms>(lanes, integrals.of.data());
 }
 
 constexpr std::size_t kThirds = 14;
@@ -140,7 +140,7 @@ void thirds(const Outline& outline, std::array<double, kThirds>& sums) {
     store(times(times(area, sine), at.y));
   }
   for (std::size_t i = kThirds; i < lanes.size(); ++i) lanes[i].fill(0.0F);
-  total<kThirds>(lanes, sums);
+  total<kThirds>(lanes, sums.data());
 }
 
 }  // namespace

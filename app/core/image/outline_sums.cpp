@@ -30,52 +30,69 @@ HWY_INLINE Vector grey_of(const std::uint8_t* pixels) {
   return hn::ConvertTo(kLanes, hn::PromoteTo(wide, hn::LoadU(bytes, pixels)));
 }
 
+HWY_INLINE void append(Vector x, Vector y, Vector grey, int at, DotPixels& pixels) {
+  hn::StoreU(x, kLanes, pixels.x.data() + at);
+  hn::StoreU(y, kLanes, pixels.y.data() + at);
+  hn::StoreU(grey, kLanes, pixels.grey.data() + at);
+}
+
 bool list(const ImageView& patch, const PatchRows& rows, DotPixels& pixels) {
   if (rows.inner.places.n > DotPixels::kCapacity) return false;
   const Vector iota = hn::Iota(kLanes, 0);
+  const Vector next = all(kStep);
+  const std::uint8_t* row = patch.data;
   int count = 0;
-  for (int y = 0; y < rows.count; ++y) {
-    const int first = rows.inner.before[static_cast<std::size_t>(y)] + 1;
-    const int n = rows.inner.after[static_cast<std::size_t>(y)] - first;
-    const std::uint8_t* row = patch.row(y) + first;
+  for (int y = 0; y < rows.count; ++y, row += patch.stride_bytes) {
+    const int start = rows.inner.before[static_cast<std::size_t>(y)] + 1;
+    const int n = rows.inner.after[static_cast<std::size_t>(y)] - start;
+    if (n <= 0) continue;
+    const Vector down = all(y);
+    Vector x = hn::Add(iota, all(start));
     for (int k = 0; k < n; k += kStep) {
-      const auto at = static_cast<std::size_t>(count + k);
-      hn::StoreU(hn::Add(iota, all(first + k)), kLanes, pixels.x.data() + at);
-      hn::StoreU(all(y), kLanes, pixels.y.data() + at);
-      hn::StoreU(grey_of(row + k), kLanes, pixels.grey.data() + at);
+      append(x, down, grey_of(row + start + k), count + k, pixels);
+      x = hn::Add(x, next);
     }
     count += n;
   }
   // What is read behind the last pixel is far from the dot.
-  std::fill_n(pixels.x.begin() + count, kBlock, 1e4F);
-  std::fill_n(pixels.y.begin() + count, kBlock, 0.0F);
-  std::fill_n(pixels.grey.begin() + count, kBlock, 0.0F);
+  const Vector zero = hn::Zero(kLanes);
+  for (int i = 0; i < kBlock; i += kStep) append(all(1e4), zero, zero, count + i, pixels);
   pixels.count = count;
   return true;
 }
 
-// Up to |z| = 3, where the normal distribution is cut off: c0 + c1 u + ... to a part in 1e5. By
-// halves, which wait less for each other than one term after the other.
-HWY_INLINE Vector polynomial(Vector u, const std::array<double, 8>& c) {
-  const Vector u2 = hn::Mul(u, u);
-  const auto pair = [&](std::size_t i) { return hn::Add(hn::Mul(all(c[i + 1]), u), all(c[i])); };
-  const Vector low = hn::Add(hn::Mul(pair(2), u2), pair(0));
-  const Vector high = hn::Add(hn::Mul(pair(6), u2), pair(4));
-  return hn::Add(hn::Mul(high, hn::Mul(u2, u2)), low);
-}
+// Up to |z| = kCut, where the normal distribution is cut off, scaled to end at 0 and 1. Density:
+// (kCut^2 - u) (c0 + c1 u + ...) with u = z^2, to 1.5e-4 and 0 at the end. Distribution: 1/2 + z
+// (c0 + c1 u + ...), to 4e-5. By halves, which wait less for each other than one term after the
+// other.
 constexpr double kCut = 3.0;
-constexpr std::array<double, 8> kDensity{
-    0.4000143343979335,    -0.19989851011803203,   0.049733726524141056,  -0.008083353488503389,
-    0.0009236040676652996, -7.234359202077163e-05, 3.461036615202008e-06, -7.515042188186805e-08};
-// Its integral over z, divided by z.
-constexpr std::array<double, 8> kDistribution{
-    0.4000143343979335,     -0.06663283670601068,    0.009946745304828211,   -0.0011547647840719126,
-    0.00010262267418503329, -6.5766901837065124e-06, 2.6623358576476984e-07, -5.01002812545787e-09};
+constexpr std::array<double, 5> kDensity{0.044430453037494308, -0.017116088516842362,
+                                         0.0033649602068658306, -0.00036752271209737245,
+                                         1.7844346881829664e-05};
+constexpr std::array<double, 6> kDistribution{0.3998475676541523,     -0.066074289196162109,
+                                              0.0094107179529879653,  -0.00093105264069910166,
+                                              5.5706351321884743e-05, -1.4825877421502016e-06};
 
-// How much of a pixel is covered; |z| is at most kCut.
-HWY_INLINE Vector covered(Vector z, Vector z2) {
-  return hn::Add(all(0.5), hn::Mul(z, polynomial(z2, kDistribution)));
+HWY_INLINE Vector linear(Vector u, double c0, double c1) {
+  return hn::Add(hn::Mul(all(c1), u), all(c0));
 }
+
+// How much of a pixel is covered, and the density there; |z| is at most kCut.
+struct Normal {
+  HWY_INLINE explicit Normal(Vector z) {
+    const Vector u = hn::Mul(z, z);
+    const Vector u2 = hn::Mul(u, u);
+    const auto& d = kDistribution;
+    const Vector high = hn::Add(linear(u, d[2], d[3]), hn::Mul(linear(u, d[4], d[5]), u2));
+    const Vector e_per_z = hn::Add(linear(u, d[0], d[1]), hn::Mul(high, u2));
+    e = hn::Add(all(0.5), hn::Mul(z, e_per_z));
+    const auto& c = kDensity;
+    const Vector tail = hn::Add(linear(u, c[2], c[3]), hn::Mul(all(c[4]), u2));
+    p = hn::Mul(hn::Sub(all(kCut * kCut), u), hn::Add(linear(u, c[0], c[1]), hn::Mul(tail, u2)));
+  }
+
+  Vector e, p;
+};
 
 struct LaneModel {
   HWY_INLINE explicit LaneModel(const OutlineModel& model)
@@ -91,8 +108,8 @@ struct LaneModel {
         background(all(model.background_dn)),
         per_x(all(model.slope_dn.x())),
         per_y(all(model.slope_dn.y())),
-        e_outside(covered(all(-kCut), hn::Mul(all(kCut), all(kCut)))),
-        e_inside(covered(all(kCut), hn::Mul(all(kCut), all(kCut)))) {}
+        e_outside(Normal(all(-kCut)).e),
+        e_inside(Normal(all(kCut)).e) {}
 
   Vector x, y, xx, xy, yy, trace, blur2, per_blur, contrast, background, per_x, per_y;
   Vector e_outside, e_inside;
@@ -165,9 +182,8 @@ HWY_INLINE Edge edge_at(const LaneModel& model, const Place& place) {
     return {e, none, none, none, false};
   }
   const Vector cut = hn::Min(hn::Max(z, all(-kCut)), all(kCut));
-  const Vector z2 = hn::Mul(cut, cut);
-  const Vector p = hn::IfThenElseZero(near, polynomial(z2, kDensity));
-  return {covered(cut, z2), p, cut, hn::Mul(p, place.h_per_m), true};
+  const Normal normal(cut);
+  return {normal.e, normal.p, cut, hn::Mul(normal.p, place.h_per_m), true};
 }
 
 template <std::size_t kTerms>
@@ -192,18 +208,15 @@ struct Compared {
 };
 
 HWY_INLINE Compared compare(const DotPixels& pixels, const LaneModel& model, const Place& place,
-                            int i) {
-  const auto at = static_cast<std::size_t>(i);
-  const Vector end = hn::Set(kLanes, static_cast<float>(pixels.count));
-  const auto valid = hn::Lt(hn::Iota(kLanes, static_cast<float>(i)), end);
+                            Vector valid, int i) {
   const Vector x = place.x;
   const Vector y = place.y;
   const Edge edge = edge_at(model, place);
   const Vector plane =
       hn::Add(model.background, hn::Add(hn::Mul(model.per_x, x), hn::Mul(model.per_y, y)));
   const Vector expected = hn::Add(plane, hn::Mul(model.contrast, edge.e));
-  const Vector grey = hn::LoadU(kLanes, pixels.grey.data() + at);
-  return {x, y, hn::IfThenElseZero(valid, hn::Sub(grey, expected)), edge};
+  const Vector grey = hn::LoadU(kLanes, pixels.grey.data() + i);
+  return {x, y, hn::And(valid, hn::Sub(grey, expected)), edge};
 }
 
 template <class Sums>
@@ -239,13 +252,11 @@ HWY_INLINE void add_failing(const Compared& at, Sums& sums) {
 template <class Sums>
 HWY_INLINE void add_failing_edge(const Compared& at, Sums& sums) {
   const Vector rw = hn::Mul(at.r, at.edge.w);
-  const Vector xx = hn::Mul(at.x, at.x);
-  const Vector yy = hn::Mul(at.y, at.y);
-  const Vector xy = hn::Mul(at.x, at.y);
-  const Vector difference = hn::Mul(rw, hn::Sub(xx, yy));
-  const Vector twice = hn::Mul(rw, hn::Add(xy, xy));
-  sums.add(ResidualSums::kRw3c, hn::Sub(hn::Mul(difference, at.x), hn::Mul(twice, at.y)));
-  sums.add(ResidualSums::kRw3s, hn::Add(hn::Mul(difference, at.y), hn::Mul(twice, at.x)));
+  const Vector xx = hn::Mul(hn::Mul(rw, at.x), at.x);
+  const Vector yy = hn::Mul(hn::Mul(rw, at.y), at.y);
+  const Vector three = all(3.0);
+  sums.add(ResidualSums::kRw3c, hn::Mul(hn::Sub(xx, hn::Mul(three, yy)), at.x));
+  sums.add(ResidualSums::kRw3s, hn::Mul(hn::Sub(hn::Mul(three, xx), yy), at.y));
   sums.add(ResidualSums::kRrp, hn::Mul(at.r, hn::Mul(at.r, at.edge.p)));
 }
 
@@ -253,12 +264,24 @@ HWY_INLINE void add_failing_edge(const Compared& at, Sums& sums) {
 template <class Add>
 HWY_INLINE void compare_all(const DotPixels& pixels, const LaneModel& model, int part, Add add) {
   Places places;
-  const int last = pixels.count + part;
+  const int count = pixels.count;
+  const int last = count + part;
+  // All of a block's lanes count, or those of the last block.
+  std::array<std::array<float, kBlock>, 2> valid;
+  const Vector zero = hn::Zero(kLanes);
+  const int last_block = part + (count - 1) / kBlock * kBlock;
+  const Vector end = hn::Set(kLanes, static_cast<float>(count));
+  hn::StoreU(hn::VecFromMask(kLanes, hn::Eq(zero, zero)), kLanes, valid[0].data());
+  hn::StoreU(hn::VecFromMask(kLanes, hn::Lt(hn::Iota(kLanes, static_cast<float>(last_block)), end)),
+             kLanes, valid[1].data());
   for (int first = part; first < last; first += Places::kBlocks * kBlock) {
-    const int end = std::min(first + Places::kBlocks * kBlock, last);
-    places.set(pixels, model, first, end);
+    const int end_of_some = std::min(first + Places::kBlocks * kBlock, last);
+    places.set(pixels, model, first, end_of_some);
     int block = 0;
-    for (int i = first; i < end; i += kBlock) add(compare(pixels, model, places[block++], i));
+    for (int i = first; i < end_of_some; i += kBlock) {
+      const Vector which = hn::LoadU(kLanes, valid[i == last_block ? 1 : 0].data());
+      add(compare(pixels, model, places[block++], which, i));
+    }
   }
 }
 
@@ -291,15 +314,14 @@ template <class Adding>
 HWY_INLINE void sum(const DotPixels& pixels, const OutlineModel& of, ResidualSums& residuals) {
   constexpr std::size_t kTerms = Adding::kTerms;
   const LaneModel model(of);
-  SumLanes<kTerms> lanes{};
+  SumLanes<kTerms> lanes;
   for (int part = 0; part < kBlock; part += kStep) {
     Adding adding;
     compare_all(pixels, model, part, [&](const Compared& at) { adding(at); });
     adding.sums.store(part, lanes);
   }
-  std::array<double, kTerms> totals;
-  total<kTerms>(lanes, totals);
-  std::copy(totals.begin(), totals.end(), residuals.of.begin());
+  for (std::size_t i = kTerms; i < lanes.size(); ++i) lanes[i].fill(0.0F);
+  total<kTerms>(lanes, residuals.of.data());
 }
 
 void sum_common(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals) {
@@ -325,12 +347,12 @@ bool list_pixels(const ImageView& patch, const PatchRows& rows, DotPixels& pixel
   return HWY_DYNAMIC_DISPATCH(list)(patch, rows, pixels);
 }
 
-void sum_residuals(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals) {
-  HWY_DYNAMIC_DISPATCH(sum_all)(pixels, model, residuals);
-}
-
 void sum_gradient(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals) {
   HWY_DYNAMIC_DISPATCH(sum_common)(pixels, model, residuals);
+}
+
+void sum_residuals(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals) {
+  HWY_DYNAMIC_DISPATCH(sum_all)(pixels, model, residuals);
 }
 
 }  // namespace dottrack::image

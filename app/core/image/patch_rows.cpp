@@ -48,17 +48,22 @@ HWY_INLINE std::int64_t total(Integer v) {
 // 12 sum x^2 = 3 n m^2 + n^3 - n. A patch's sums have room in 32 bits.
 void span(const GrownEllipse& ellipse, const Eigen::Vector2d& centre, int rows, int columns,
           Spans& spans) {
-  const double per_a = 1.0 / ellipse.a;
+  const double one_per_a = 1.0 / ellipse.a;
+  const Vector per_a = all(one_per_a);
+  const Vector a = all(ellipse.a);
+  const Vector determinant = all(ellipse.determinant);
+  const Vector slant = all(ellipse.b * one_per_a);
+  const Vector middle_x = all(centre.x());
+  const Vector middle_y = all(centre.y());
   const Integer one = hn::Set(kIntegers, 1);
   const Integer none = hn::Zero(kIntegers);
   Integer n_sum = none, y_sum = none, yy_sum = none, x2_sum = none, xx12_sum = none, xy2_sum = none;
   for (int row = 0; row < rows; row += kStep) {
     const Integer y = hn::Iota(kIntegers, row);
-    const Vector down = hn::Sub(hn::ConvertTo(kLanes, y), all(centre.y()));
-    const Vector inside =
-        hn::Sub(all(ellipse.a), hn::Mul(all(ellipse.determinant), hn::Mul(down, down)));
-    const Vector half = hn::Mul(hn::Sqrt(hn::Max(inside, all(0.0))), all(per_a));
-    const Vector middle = hn::Sub(all(centre.x()), hn::Mul(all(ellipse.b * per_a), down));
+    const Vector down = hn::Sub(hn::ConvertTo(kLanes, y), middle_y);
+    const Vector inside = hn::Sub(a, hn::Mul(determinant, hn::Mul(down, down)));
+    const Vector half = hn::Mul(hn::Sqrt(hn::Max(inside, all(0.0))), per_a);
+    const Vector middle = hn::Sub(middle_x, hn::Mul(slant, down));
     const Integer first =
         hn::Min(hn::Max(ceiling_of(hn::Sub(middle, half)), none), hn::Set(kIntegers, columns));
     const Integer past =
