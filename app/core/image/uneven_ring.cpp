@@ -1,5 +1,6 @@
 #include "app/core/image/uneven_ring.h"
 
+#include <array>
 #include <bitset>
 #include <cmath>
 #include <cstddef>
@@ -12,14 +13,10 @@ namespace {
 constexpr int kRounds = 3;
 
 using Row = std::bitset<kPatchColumns_px>;
-using Map = std::array<Row, kMaxPatchSide_px>;
+using Map = std::array<Row, kPatchRows_px>;
 
 std::size_t index(int i) {
   return static_cast<std::size_t>(i);
-}
-
-bool holds(const Span& span, int x) {
-  return x >= span.first && x <= span.last;
 }
 
 // Pixels further off the plane than a limit, where the dot's light does not reach.
@@ -27,10 +24,9 @@ Map off_plane(const ImageView& patch, const PatchRows& rows, const Spans& lit, c
               double limit_dn) {
   Map map;
   for (int y = 0; y < rows.count; ++y) {
-    const Span span = rows.outer[index(y)];
-    for (int x = span.first; x <= span.last; ++x) {
+    for (int x = rows.outer.before[index(y)] + 1; x < rows.outer.after[index(y)]; ++x) {
       const double off_dn = patch.at(x, y) - plane.at_origin - plane.per_x * x - plane.per_y * y;
-      map[index(y)][index(x)] = std::abs(off_dn) > limit_dn && !holds(lit[index(y)], x);
+      map[index(y)][index(x)] = std::abs(off_dn) > limit_dn && !lit.holds(x, y);
     }
   }
   return map;
@@ -61,17 +57,14 @@ Map strangers_in(const ImageView& patch, const PatchRows& rows, const Spans& lit
 
 }  // namespace
 
-void find_own_ground(const ImageView& patch, const PatchRows& rows, const Spans& nearest,
-                     Plane& plane) {
-  PatchRows near = rows;
-  near.outer = nearest;
+void find_own_ground(const ImageView& patch, const PatchRows& nearest, const RingMask& mask,
+                     const GreySums& whole, Plane& plane) {
   RingLevel level;
-  if (!find_level(patch, near, level)) return;
-  const GreySums whole = sum_patch(patch, rows).ring;
+  if (!find_level(patch, nearest, level)) return;
   Plane ground{level.middle_dn, 0.0, 0.0, level.sigma_dn};
   for (int round = 0; round < kRounds; ++round) {
     GreySums kept = whole;
-    drop_outliers(patch, rows, rounded(ground, noise_limit_dn(ground)), kept);
+    drop_outliers(patch, mask, rounded(ground, noise_limit_dn(ground)), kept);
     if (!fit(kept, ground)) return;
   }
   plane = ground;
@@ -80,13 +73,11 @@ void find_own_ground(const ImageView& patch, const PatchRows& rows, const Spans&
 void drop_strangers(const ImageView& patch, const PatchRows& rows, const DotReach& reach,
                     const Plane& plane, PatchSums& sums, DotPixels& pixels) {
   const Map strangers = strangers_in(patch, rows, reach.lit, plane);
-  sums = sum_patch(patch, rows);
   pixels.count = 0;
   for (int y = 0; y < rows.count; ++y) {
-    const Span outer = rows.outer[index(y)];
-    for (int x = outer.first; x <= outer.last; ++x) {
-      const bool inside = holds(rows.inner[index(y)], x);
-      if (strangers[index(y)][index(x)] && !holds(reach.edge[index(y)], x)) {
+    for (int x = rows.outer.before[index(y)] + 1; x < rows.outer.after[index(y)]; ++x) {
+      const bool inside = rows.inner.holds(x, y);
+      if (strangers[index(y)][index(x)] && !reach.edge.holds(x, y)) {
         subtract(inside ? sums.dot : sums.ring, x, y, patch.at(x, y));
       } else if (inside) {
         pixels.add(x, y, patch.at(x, y));
