@@ -77,6 +77,7 @@ struct Weighing {
   const Clutter& clutter;
   RigidDots dots;
   double max_rms_residual_m;
+  RigidFit fit{as_span(dots), max_rms_residual_m};
 
   double log_anywhere() const { return -std::log(clutter.room_m3()) - log_orientations(target); }
 
@@ -88,7 +89,7 @@ struct Weighing {
   // Of the target to clutter.
   double log_odds() const {
     double sum = log_prior(target, witnesses.size()) + log_sizes(target, witnesses, clutter) +
-                 log_fit(as_span(dots), max_rms_residual_m) + log_anywhere();
+                 fit.log_density() + log_anywhere();
     for (std::size_t i = 0; i < witnesses.size(); ++i) sum += log_dot(i);
     return sum;
   }
@@ -105,23 +106,21 @@ struct Weighing {
   // Of the target's dots but for one, with clutter at its place, to clutter. Nothing where the pose
   // is the same without it: then the lock is right all the same.
   double log_odds_without(std::size_t left_out) const {
+    if (!moves(left_out)) return kNothing;
     Witnesses others;
-    RigidDots places;
     double sum = 0.0;
     for (std::size_t i = 0; i < witnesses.size(); ++i) {
       if (i == left_out) continue;
       others.push_back(witnesses[i]);
-      places.push_back(dots[i]);
       sum += log_dot(i);
     }
-    if (!moves(as_span(places))) return kNothing;
     return sum + log_prior(target, others.size()) + log_sizes(target, as_span(others), clutter) +
-           log_fit(as_span(places), max_rms_residual_m) + log_anywhere();
+           fit.log_density_without(left_out) + log_anywhere();
   }
 
-  bool moves(std::span<const RigidDot> places) const {
+  bool moves(std::size_t left_out) const {
     RigidStep step;
-    if (!best_step(places, max_rms_residual_m, step)) return true;
+    if (!fit.best_step_without(left_out, step)) return true;
     return std::any_of(target.dots.begin(), target.dots.end(), [&](const core::TargetDot& dot) {
       return step.of(dot.position_m).norm() > kElsewhere_m;
     });

@@ -42,8 +42,8 @@ void FinalistBuilder::start(std::span<const CameraView> views) {
   set_.clear();
 }
 
-int FinalistBuilder::take(const CandidatePair& pair, int min_views, WorkBudget& budget,
-                          core::AcquisitionCounts& counts) {
+int FinalistBuilder::take(const CandidatePair& pair, CameraSet look, int min_views,
+                          WorkBudget& budget, core::AcquisitionCounts& counts) {
   budget.spend(kLookUnits);
   if (has_finalist(pair, true, budget)) return 0;
   if (set_.full()) {
@@ -52,7 +52,6 @@ int FinalistBuilder::take(const CandidatePair& pair, int min_views, WorkBudget& 
   }
   PointViews alone;
   for (std::size_t side = 0; side < 2; ++side) alone.set(pair.camera[side], pair.sighting[side]);
-  const CameraSet look = finder_.look(pair.point_m);
   const int close =
       CameraSet(static_cast<std::uint16_t>(look.bits() | alone.cameras.bits())).size();
   const bool vague = finder_.is_vague(pair);

@@ -18,10 +18,16 @@ class FinalistBuilder {
   // Begins anew. The views must stay as they are while pairs are taken.
   void start(std::span<const CameraView> views);
 
+  // What take() is to know of each pair: every camera that has a sighting close to its point, and
+  // some others. Of many at once it is found much quicker than one by one.
+  void look(std::span<const CandidatePair> pairs, std::span<CameraSet> close) const {
+    finder_.look(pairs, close);
+  }
+
   // Finds the finalist of a pair, if at least min_views cameras see it. Answers how many views one
   // of this pair that was passed over now may have at most; 0: there is none but what was found.
   // With min_views 2 no pair is passed over: if it has no finalist whose views agree, it is one.
-  int take(const CandidatePair& pair, int min_views, WorkBudget& budget,
+  int take(const CandidatePair& pair, CameraSet look, int min_views, WorkBudget& budget,
            core::AcquisitionCounts& counts);
 
   // Drops the finalist when all its sightings belong to others of many more views: its lines of

@@ -1,5 +1,6 @@
 #include "app/core/acquisition/finalist_search.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "app/core/acquisition/finalist_builder.h"
@@ -12,6 +13,9 @@ namespace {
 
 // With two views a pair is not deferred: the search for two takes all pairs anew.
 constexpr int kLeastDeferred = 3;
+
+// Pairs are looked at so many at a time.
+constexpr std::size_t kLookedAtOnce = 32;
 
 // A pair whose point fewer cameras see than were asked for.
 struct Deferred {
@@ -48,7 +52,8 @@ struct FinalistSearch::Memory {
   std::size_t next_sighting = 0;  // of the first of the cameras being matched
   CandidatePairs pairs;           // of one pair of cameras
   std::size_t next_pair = 0;
-  std::size_t pairs_ready = 0;  // none before all of the two cameras' are known
+  std::size_t pairs_ready = 0;                 // none before all of the two cameras' are known
+  std::array<CameraSet, kLookedAtOnce> looks;  // of the pairs from a multiple of their number on
   StaticVector<Deferred, 65536> deferred;
   std::size_t next_deferred = 0;
   std::size_t deferred_before = 0;  // when the layer began
@@ -136,8 +141,13 @@ void FinalistSearch::Memory::match_next(WorkBudget& budget, core::AcquisitionCou
 }
 
 void FinalistSearch::Memory::take_pair(WorkBudget& budget, core::AcquisitionCounts& counts) {
+  const std::size_t of_look = next_pair % kLookedAtOnce;
+  if (of_look == 0) {
+    const std::size_t count = std::min(kLookedAtOnce, pairs_ready - next_pair);
+    builder.look(as_span(pairs).subspan(next_pair, count), looks);
+  }
   const CandidatePair& pair = pairs[next_pair++];
-  const int most_views = builder.take(pair, min_views, budget, counts);
+  const int most_views = builder.take(pair, looks[of_look], min_views, budget, counts);
   if (most_views < kLeastDeferred) return;
   const Deferred entry{
       {pair.camera[0], pair.camera[1]}, pair.sighting, static_cast<std::uint8_t>(most_views)};
@@ -156,7 +166,9 @@ void FinalistSearch::Memory::take_deferred(WorkBudget& budget, core::Acquisition
     geometry::Crossover cross;
     geometry::closest_crossover(ray_a, ray_b, cross);  // ok, as it was before
     pair.point_m = cross.point_m;
-    most_views = builder.take(pair, min_views, budget, counts);
+    CameraSet look;
+    builder.look({&pair, 1}, {&look, 1});
+    most_views = builder.take(pair, look, min_views, budget, counts);
   } else {
     budget.spend(1);
   }

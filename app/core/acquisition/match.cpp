@@ -16,9 +16,11 @@ bool within(double range_m, const core::Camera& camera) {
   return range_m >= camera.distance_min_m && range_m <= camera.distance_max_m;
 }
 
-bool is_close(const Sighting& sighting, const Eigen::Vector3d& point_m, double max_residual_px) {
-  return (sighting.pixel_of(point_m) - sighting.pixel).squaredNorm() <=
-         max_residual_px * max_residual_px;
+// Where the crossover projects to is in the sighting's box and close to its centre.
+bool agrees(const Sighting& sighting, const Eigen::Vector3d& point_m, double max_residual_px) {
+  const Eigen::Vector2d pixel = sighting.pixel_of(point_m);
+  return sighting.box_contains(pixel) &&
+         (pixel - sighting.pixel).squaredNorm() <= max_residual_px * max_residual_px;
 }
 
 void count(PairGate gate, core::AcquisitionCounts& counts) {
@@ -48,10 +50,10 @@ void count(PairGate gate, core::AcquisitionCounts& counts) {
   }
 }
 
-}  // namespace
-
-PairGate test_pair(const CameraView& a, std::size_t sighting_a, const CameraView& b,
-                   std::size_t sighting_b, double max_miss_m, CandidatePair& pair) {
+// test_pair, and whether the point is as close to both sightings.
+PairGate test(const CameraView& a, std::size_t sighting_a, const CameraView& b,
+              std::size_t sighting_b, double max_miss_m, double max_residual_px,
+              CandidatePair& pair) {
   const Sighting& in_a = a.sightings[sighting_a];
   const Sighting& in_b = b.sightings[sighting_b];
   geometry::Crossover cross;
@@ -70,13 +72,21 @@ PairGate test_pair(const CameraView& a, std::size_t sighting_a, const CameraView
   if (!in_a.window.contains(cross.range_a_m) || !in_b.window.contains(cross.range_b_m)) {
     return PairGate::size;
   }
-  if (!in_a.box_contains(in_a.pixel_of(cross.point_m)) ||
-      !in_b.box_contains(in_b.pixel_of(cross.point_m))) {
+  if (!agrees(in_a, cross.point_m, max_residual_px) ||
+      !agrees(in_b, cross.point_m, max_residual_px)) {
     return PairGate::reprojection;
   }
   pair.sighting = {static_cast<std::uint16_t>(sighting_a), static_cast<std::uint16_t>(sighting_b)};
   pair.point_m = cross.point_m;
   return PairGate::accepted;
+}
+
+}  // namespace
+
+PairGate test_pair(const CameraView& a, std::size_t sighting_a, const CameraView& b,
+                   std::size_t sighting_b, double max_miss_m, CandidatePair& pair) {
+  return test(a, sighting_a, b, sighting_b, max_miss_m, std::numeric_limits<double>::infinity(),
+              pair);
 }
 
 void Matcher::start(double max_residual_px) {
@@ -109,12 +119,7 @@ bool Matcher::match(std::span<const CameraView> views, std::size_t a, std::size_
     for (const PairFilter::Row& row : filter_.rows(next)) {
       budget.spend(1U + row.looked_at / kLooksInAUnit + kUnitsToTest * row.hits);
       for (const std::uint16_t j : filter_.hits(row)) {
-        PairGate gate = test_pair(view_a, next, view_b, j, max_miss_m, pair);
-        if (gate == PairGate::accepted &&
-            !(is_close(view_a.sightings[next], pair.point_m, max_residual_px_) &&
-              is_close(view_b.sightings[j], pair.point_m, max_residual_px_))) {
-          gate = PairGate::reprojection;
-        }
+        const PairGate gate = test(view_a, next, view_b, j, max_miss_m, max_residual_px_, pair);
         count(gate, counts);
         if (gate == PairGate::accepted && !try_push_back(pairs, pair)) ++counts.overflow;
       }

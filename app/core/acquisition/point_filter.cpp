@@ -78,17 +78,30 @@ HWY_INLINE std::uint32_t look_at(const PointFilter::Cameras& c, const std::uint3
   return bytes[0];
 }
 
-std::uint32_t look_at_all(const PointFilter::Cameras& cameras, const std::uint32_t* maps,
-                          const Eigen::Vector3f& point, float margin_px) {
+HWY_INLINE std::uint32_t look_at_all(const PointFilter::Cameras& cameras, const std::uint32_t* maps,
+                                     const Eigen::Vector3d& point, float margin_px) {
   const Lanes lanes;
-  const auto x = hn::Set(lanes, point.x());
-  const auto y = hn::Set(lanes, point.y());
-  const auto z = hn::Set(lanes, point.z());
+  const auto x = hn::Set(lanes, static_cast<float>(point.x()));
+  const auto y = hn::Set(lanes, static_cast<float>(point.y()));
+  const auto z = hn::Set(lanes, static_cast<float>(point.z()));
   std::uint32_t close = 0;
   for (std::size_t i = 0; i < kMaxCameras; i += hn::Lanes(lanes)) {
     close |= look_at(cameras, maps, i, x, y, z, margin_px) << i;
   }
   return close;
+}
+
+std::uint32_t look_at_point(const PointFilter::Cameras& cameras, const std::uint32_t* maps,
+                            const Eigen::Vector3d& point, float margin_px) {
+  return look_at_all(cameras, maps, point, margin_px);
+}
+
+void look_at_pairs(const PointFilter::Cameras& cameras, const std::uint32_t* maps,
+                   std::span<const CandidatePair> pairs, float margin_px, CameraSet* close) {
+  for (const CandidatePair& pair : pairs) {
+    *close++ =
+        CameraSet(static_cast<std::uint16_t>(look_at_all(cameras, maps, pair.point_m, margin_px)));
+  }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -99,7 +112,8 @@ HWY_AFTER_NAMESPACE();
 namespace dottrack::acquisition {
 namespace {
 
-HWY_EXPORT(look_at_all);
+HWY_EXPORT(look_at_point);
+HWY_EXPORT(look_at_pairs);
 
 // More than single precision is off by anywhere in an image.
 constexpr double kRounding_px = 0.1;
@@ -185,9 +199,18 @@ void PointFilter::draw(std::size_t camera, const estimation::Sightings& sighting
 }
 
 CameraSet PointFilter::look(const Eigen::Vector3d& point_m) const {
-  const std::uint32_t close = HWY_DYNAMIC_DISPATCH(look_at_all)(
-      cameras_, maps_.data(), point_m.cast<float>(), static_cast<float>(kMargin_px));
+  const std::uint32_t close = HWY_DYNAMIC_DISPATCH(look_at_point)(cameras_, maps_.data(), point_m,
+                                                                  static_cast<float>(kMargin_px));
   return CameraSet(static_cast<std::uint16_t>(close | complex_.bits()));
+}
+
+void PointFilter::look(std::span<const CandidatePair> pairs, std::span<CameraSet> close) const {
+  HWY_DYNAMIC_DISPATCH(look_at_pairs)
+  (cameras_, maps_.data(), pairs, static_cast<float>(kMargin_px), close.data());
+  if (complex_.empty()) return;
+  for (CameraSet& cameras : close.first(pairs.size())) {
+    cameras = CameraSet(static_cast<std::uint16_t>(cameras.bits() | complex_.bits()));
+  }
 }
 
 }  // namespace dottrack::acquisition

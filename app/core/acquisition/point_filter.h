@@ -25,6 +25,8 @@ class PointFilter {
 
   // Every camera that has a sighting within kClose_px of the point's projection, and some others.
   CameraSet look(const Eigen::Vector3d& point_m) const;
+  // The same of the points of some pairs, into as many answers: one does not wait for another.
+  void look(std::span<const CandidatePair> pairs, std::span<CameraSet> close) const;
 
   // The cameras, side by side: one number of each.
   using PerCamera = std::array<float, kMaxCameras>;

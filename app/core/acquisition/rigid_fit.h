@@ -3,7 +3,12 @@
 // probability density (paper sections 3.1.5, 3.2.4 know only its root mean square).
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <span>
+
+#include "app/core/limits.h"
+#include "hal/base/static_vector.h"
 
 namespace dottrack::acquisition {
 
@@ -35,9 +40,40 @@ struct RigidStep {
   }
 };
 
-// The step from the pose that the errors are taken from to the one that fits these dots best.
-// False when they do not determine one.
-bool best_step(std::span<const RigidDot> dots, double max_rms_residual_m, RigidStep& step);
+// log_fit of a few dots, and of the same without one of them: each dot's part in it is found once.
+class RigidFit {
+ public:
+  RigidFit(std::span<const RigidDot> dots, double max_rms_residual_m);
+
+  double log_density() const { return log_density_of_all_but(dots_.size()); }
+  double log_density_without(std::size_t dot) const { return log_density_of_all_but(dot); }
+  // The step from the pose that the errors are taken from to the one that fits the other dots best.
+  // False when they do not determine one.
+  bool best_step_without(std::size_t dot, RigidStep& step) const;
+
+ private:
+  static constexpr std::size_t kSystematic = 5;  // errors of survey and calibration, each tried
+
+  // Dots' normal distributions as one of the six coordinates of the pose, that their errors are
+  // linear in. Of the information only the lower triangle.
+  struct PoseNormal {
+    Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+    Eigen::Matrix<double, 6, 1> gradient = Eigen::Matrix<double, 6, 1>::Zero();
+    double chi2 = 0.0;
+    double log_det = 0.0;  // of the covariances; not finite where one is none
+
+    PoseNormal() = default;
+    PoseNormal(const RigidDot& dot, const Eigen::Vector3d& middle_m, double systematic_m);
+    PoseNormal& operator+=(const PoseNormal& other);
+  };
+
+  static double log_density_of(const PoseNormal& normal, std::size_t dots);
+  PoseNormal all_but(std::size_t dot, std::size_t systematic) const;
+  double log_density_of_all_but(std::size_t dot) const;
+
+  Eigen::Vector3d middle_m_;
+  StaticVector<std::array<PoseNormal, kSystematic>, core::kMaxDots> dots_;
+};
 
 // log_fit for two dots, per m^6: they leave a turn about their line open.
 double log_pair_fit(const RigidDot& a, const RigidDot& b, double max_rms_residual_m);

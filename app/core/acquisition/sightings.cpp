@@ -1,9 +1,9 @@
 #include "app/core/acquisition/sightings.h"
 
-#include <algorithm>
 #include <array>
-#include <span>
+#include <cstdint>
 
+#include "app/core/estimation/sighting_bundle.h"
 #include "app/core/geometry/pixel_bundle.h"
 
 namespace dottrack::acquisition {
@@ -13,44 +13,59 @@ estimation::DiameterRange diameters(const core::Target& target) {
   return {core::smallest_dot_diameter_m(target), core::largest_dot_diameter_m(target)};
 }
 
-// Of a bundle of sightings, by their model or, where it does not know, one by one; false for those
-// without any.
-std::array<bool, geometry::PixelBundle::kCapacity> add_lines(
-    const core::Camera& camera, geometry::PixelBundle& bundle,
-    std::span<estimation::Sighting> sightings) {
-  bundle.size = sightings.size();
-  for (std::size_t i = 0; i < sightings.size(); ++i) {
-    bundle.x[i] = sightings[i].pixel.x();
-    bundle.y[i] = sightings[i].pixel.y();
+// A few of a camera's regions on their way to sightings, side by side.
+struct Bundle {
+  static constexpr std::size_t kCapacity = geometry::PixelBundle::kCapacity;
+  static_assert(kCapacity == estimation::SightingBundle::kCapacity);
+
+  std::size_t size = 0;
+  std::array<std::uint16_t, kCapacity> region;
+  estimation::SightingBundle sizes;
+  geometry::PixelBundle pixels;
+};
+
+// From region `next` on, those that are whole and that the lens can show; returns where it stopped.
+std::size_t gather(const image::Regions& regions, std::size_t next, const geometry::Optics& optics,
+                   Bundle& bundle) {
+  bundle.size = 0;
+  for (; next < regions.size() && bundle.size < Bundle::kCapacity; ++next) {
+    const image::Region& region = regions[next];
+    const geometry::AngularScale& scale = optics.at(region.centroid_px);
+    bundle.region[bundle.size] = static_cast<std::uint16_t>(next);
+    bundle.sizes.semi_major_px[bundle.size] = region.semi_major_px;
+    bundle.sizes.least_px_per_rad[bundle.size] = scale.min_px;
+    bundle.sizes.most_px_per_rad[bundle.size] = scale.max_px;
+    bundle.pixels.x[bundle.size] = region.centroid_px.x();
+    bundle.pixels.y[bundle.size] = region.centroid_px.y();
+    bundle.size += !region.touches_border && scale.max_px > 0.0;
   }
-  geometry::unproject_bundle(camera.model, bundle);
-  std::array<bool, geometry::PixelBundle::kCapacity> seen{};
-  for (std::size_t i = 0; i < sightings.size(); ++i) {
-    if (bundle.known[i] != 0) {
-      sightings[i].line.ray = bundle.ray(i, camera.model);
-      sightings[i].pixels_per_rad = bundle.pixels_per_rad(i);
-      seen[i] = true;
-    } else {
-      seen[i] = estimation::add_line_of_sight(camera, sightings[i]);
-    }
-  }
-  return seen;
+  bundle.sizes.size = bundle.pixels.size = bundle.size;
+  return next;
 }
 
-// Those without one are taken out.
-void add_lines_of_sight(const core::Camera& camera, estimation::Sightings& sightings) {
-  geometry::PixelBundle bundle;
-  std::size_t kept = 0;
-  for (std::size_t from = 0; from < sightings.size(); from += geometry::PixelBundle::kCapacity) {
-    const std::size_t size = std::min(geometry::PixelBundle::kCapacity, sightings.size() - from);
-    const auto seen = add_lines(camera, bundle, {sightings.data() + from, size});
-    for (std::size_t i = 0; i < size; ++i) {
-      if (!seen[i]) continue;
-      if (kept != from + i) sightings[kept] = sightings[from + i];
-      ++kept;
-    }
+// By the camera's model or, where the bundle does not know, by itself; false without a line.
+bool add_line(const core::Camera& camera, const geometry::PixelBundle& pixels, std::size_t i,
+              estimation::Sighting& sighting) {
+  if (pixels.known[i] == 0) return estimation::add_line_of_sight(camera, sighting);
+  sighting.line.ray = pixels.ray(i, camera.model);
+  sighting.pixels_per_rad = pixels.pixels_per_rad(i);
+  return true;
+}
+
+// Writes those of the bundle that have a distance and a line of sight; returns how many.
+std::size_t write(const core::Camera& camera, const image::Regions& regions, const Bundle& bundle,
+                  estimation::Sighting* to) {
+  const estimation::Sighting* const first = to;
+  for (std::size_t i = 0; i < bundle.size; ++i) {
+    to->window = {bundle.sizes.near_m[i], bundle.sizes.far_m[i]};
+    if (to->window.empty()) continue;
+    to->take_shape(regions[bundle.region[i]]);
+    to->region = bundle.region[i];
+    to->line.sigma_rad = bundle.sizes.sigma_rad[i];
+    to->angular_diameter_rad = bundle.sizes.angular_diameter_rad[i];
+    to += add_line(camera, bundle.pixels, i, *to);
   }
-  sightings.resize(kept);
+  return static_cast<std::size_t>(to - first);
 }
 
 }  // namespace
@@ -68,20 +83,19 @@ void take_sightings(const core::Target& target, const geometry::Optics& optics,
                     const image::Regions* regions, CameraView& view) {
   estimation::Sightings& sightings = view.sightings;
   if (regions == nullptr) return sightings.clear();
-  const estimation::DiameterRange dots = diameters(target);
+  const core::Camera& camera = *view.camera;
   // In place of those before: all that counts of one is written, so there is nothing to clear.
   sightings.resize(regions->size());
-  std::size_t described = 0;
-  for (std::size_t r = 0; r < regions->size(); ++r) {
-    const image::Region& region = (*regions)[r];
-    if (region.touches_border) continue;
-    estimation::Sighting& sighting = sightings[described];
-    if (!estimation::describe_sighting(*view.camera, optics, dots, region, sighting)) continue;
-    sighting.region = static_cast<std::uint16_t>(r);
-    ++described;
+  std::size_t size = 0;
+  Bundle bundle;
+  for (std::size_t next = 0; next < regions->size();) {
+    next = gather(*regions, next, optics, bundle);
+    estimation::describe_sightings(diameters(target),
+                                   {camera.distance_min_m, camera.distance_max_m}, bundle.sizes);
+    geometry::unproject_bundle(camera.model, bundle.pixels);
+    size += write(camera, *regions, bundle, sightings.data() + size);
   }
-  sightings.resize(described);
-  add_lines_of_sight(*view.camera, sightings);
+  sightings.resize(size);
 }
 
 }  // namespace dottrack::acquisition

@@ -33,6 +33,9 @@ class ViewFinder {
 
   // Every camera that has a sighting within kClose_px of the point's projection, and some others.
   CameraSet look(const Eigen::Vector3d& point_m) const { return filter_.look(point_m); }
+  void look(std::span<const CandidatePair> pairs, std::span<CameraSet> close) const {
+    filter_.look(pairs, close);
+  }
 
   // In each of these cameras the sighting closest to the point's projection, of those no further
   // from it than radius_px whose widened box contains it and whose size fits the point's range.

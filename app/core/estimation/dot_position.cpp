@@ -84,20 +84,33 @@ bool drop_worst(Views& views, const Eigen::Vector3d& point_m) {
 
 // A dot half behind a mast has its centroid off by a pixel while the other views agree to
 // hundredths. Removes the view that fits worst when the rest fit far better without it: by an F
-// test of the two coordinates it takes along. False when no view is that odd.
-bool drop_outlier(Views& views, const Residuals& residuals) {
+// test of the two coordinates it takes along; `result` and `residuals` are then those of the rest.
+// False when no view is that odd.
+bool drop_outlier(Views& views, geometry::Triangulation& result, Residuals& residuals) {
   if (views.size() < kMinViewsToJudge) return false;
   if (residuals.squared_px[residuals.worst] < kOddView_px * kOddView_px) return false;
   Views rest = views;
   rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(residuals.worst));
   geometry::Triangulation without;
   if (!solve(rest, without)) return false;
-  const double left2 = residuals_of(rest, without.point_m).sum2_px;
+  const Residuals left = residuals_of(rest, without.point_m);
+  const double left2 = left.sum2_px;
   const double gained2 = residuals.sum2_px - left2;
   const double freedom = 2.0 * static_cast<double>(rest.size()) - 3.0;
   if (gained2 / 2.0 < kMinFRatio * left2 / freedom) return false;
   views = rest;
+  result = without;
+  residuals = left;
   return true;
+}
+
+// Drops a view that misses (true: the rest is to be solved anew), or else those that stand out, one
+// after the other, whose rest is solved already. False when what is left agrees.
+bool drop_disagreeing(Views& views, geometry::Triangulation& result, Residuals& residuals) {
+  do {
+    if (!residuals.inside_all && drop_worst(views, result.point_m)) return true;
+  } while (drop_outlier(views, result, residuals));
+  return false;
 }
 
 double mean_diameter(const Views& views, const Eigen::Vector3d& point_m) {
@@ -116,8 +129,7 @@ bool locate_dot(Views views, DotPosition& position) {
   do {
     if (views.size() < 2 || !solve(views, result)) return false;
     residuals = residuals_of(views, result.point_m);
-  } while ((!residuals.inside_all && drop_worst(views, result.point_m)) ||
-           drop_outlier(views, residuals));
+  } while (drop_disagreeing(views, result, residuals));
   position.position_m = result.point_m;
   position.covariance_m2 = result.covariance_m2;
   position.diameter_m = mean_diameter(views, result.point_m);

@@ -2,14 +2,10 @@
 
 #include <algorithm>
 
+#include "app/core/estimation/sighting_bounds.h"
+
 namespace dottrack::estimation {
 namespace {
-
-// Bounds on measured over true size, with what a threshold may add or take at the rim.
-// On the real plate images a dot's axes come out 1.2 to 1.45 times their nominal length.
-constexpr double kShrink = 0.75;
-constexpr double kGrow = 1.5;
-constexpr double kGrowRim_px = 1.0;
 
 // Shape (paper 3.3): a disc seen at 78 degrees from its normal has an axis ratio of 0.2; a filled
 // ellipse fills the ellipse of its own moments, open or branched shapes do not.

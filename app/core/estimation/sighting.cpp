@@ -1,13 +1,8 @@
 #include "app/core/estimation/sighting.h"
 
+#include "app/core/estimation/sighting_bounds.h"
+
 namespace dottrack::estimation {
-namespace {
-
-// Standard deviation that a grey-weighted centroid is trusted to, pixels; the pose's covariance
-// is scaled up by what the residuals show beyond it.
-constexpr double kCentroidSigma_px = 0.1;
-
-}  // namespace
 
 bool describe_sighting(const core::Camera& camera, const geometry::Optics& optics,
                        const DiameterRange& diameter, const image::Region& region,
@@ -19,12 +14,7 @@ bool describe_sighting(const core::Camera& camera, const geometry::Optics& optic
   if (sighting.window.empty()) return false;
   const double mean_px = scale.mean_px();
   sighting.line.sigma_rad = kCentroidSigma_px / mean_px;
-  sighting.pixel = region.centroid_px;
-  sighting.semi_major_px = region.semi_major_px;
-  sighting.semi_minor_px = region.semi_minor_px;
-  sighting.angle_rad = region.angle_rad;
-  sighting.box_min_px = {region.x_min - 0.5, region.y_min - 0.5};
-  sighting.box_max_px = {region.x_max + 0.5, region.y_max + 0.5};
+  sighting.take_shape(region);
   sighting.angular_diameter_rad = 2.0 * region.semi_major_px / mean_px;
   return true;
 }

@@ -28,6 +28,16 @@ struct Sighting {
   // d(pixel)/d(point) times the point's range: the same all along the line of sight.
   geometry::ProjectionJacobian pixels_per_rad = geometry::ProjectionJacobian::Zero();
 
+  // Place, ellipse and box of the region.
+  void take_shape(const image::Region& of) {
+    pixel = of.centroid_px;
+    semi_major_px = of.semi_major_px;
+    semi_minor_px = of.semi_minor_px;
+    angle_rad = of.angle_rad;
+    box_min_px = {of.x_min - 0.5, of.y_min - 0.5};
+    box_max_px = {of.x_max + 0.5, of.y_max + 0.5};
+  }
+
   // Where a point near the line of sight projects to. Linear: a point a hundredth of its range off
   // the line is a few hundredths of a pixel off.
   Eigen::Vector2d pixel_of(const Eigen::Vector3d& point_m) const {

@@ -100,6 +100,32 @@ TEST(RigidFit, FallsWithTheResidualAndNeverGainsBeyondTheSystematicErrors) {
   EXPECT_NEAR(sharp, sharpest, 0.02);
 }
 
+TEST(RigidFit, WithoutADotIsThatOfTheOthers) {
+  RigidDots dots = corners({0.004, -0.003, 0.005}, 0.002);
+  dots.push_back({{-0.2, 0.1, 0.3}, {0.001, 0.002, -0.004}, 1e-5 * Matrix3d::Identity()});
+  dots.back().covariance_m2(0, 1) = dots.back().covariance_m2(1, 0) = 4e-6;
+  const RigidFit fit(as_span(dots), kLimit_m);
+  EXPECT_EQ(fit.log_density(), log_fit(as_span(dots), kLimit_m));
+  for (std::size_t i = 0; i < dots.size(); ++i) {
+    RigidDots others = dots;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    EXPECT_NEAR(fit.log_density_without(i), log_fit(as_span(others), kLimit_m), 1e-9);
+  }
+}
+
+TEST(RigidFit, FindsTheMotionOfAllDotsButOne) {
+  RigidDots dots = corners(Vector3d::Zero(), 0.002);
+  const Vector3d shift(0.002, 0.001, -0.003);
+  const Vector3d turn(1e-3, -2e-3, 1.5e-3);
+  for (RigidDot& d : dots) d.error_m = shift + turn.cross(d.arm_m);
+  dots[1].error_m += Vector3d(0.5, -0.2, 0.1);
+  RigidStep step;
+  ASSERT_TRUE(RigidFit(as_span(dots), kLimit_m).best_step_without(1, step));
+  for (const Vector3d& place : {Vector3d(0.0, 0.0, 0.0), Vector3d(1.0, -2.0, 0.5)}) {
+    EXPECT_LT((step.of(place) - shift - turn.cross(place)).norm(), 1e-12);
+  }
+}
+
 TEST(RigidFit, OfAPairIsThatItsLengthFits) {
   const RigidDot a{{0.1, 0.0, 0.0}, {0.0, 0.0, 0.0}, 4e-6 * Matrix3d::Identity()};
   RigidDot b{{0.4, 0.0, 0.0}, {0.0, 0.0, 0.0}, 4e-6 * Matrix3d::Identity()};

@@ -47,9 +47,13 @@ TEST(PointFilter, MissesNoSightingThatIsClose) {
   filter->start(views);
   std::array<int, kMaxCameras> close{};
   std::array<int, kMaxCameras> passed{};
+  std::vector<CandidatePair> pairs;
+  std::vector<CameraSet> looks;
   constexpr int kPoints = 20000;
   for (const Eigen::Vector3d& point : test::points_in_hall(kPoints, random)) {
     const CameraSet look = filter->look(point);
+    pairs.push_back({.point_m = point});
+    looks.push_back(look);
     for (std::size_t c = 0; c < cameras.size(); ++c) {
       passed[c] += look.contains(c) ? 1 : 0;
       Eigen::Vector2d pixel;
@@ -62,6 +66,9 @@ TEST(PointFilter, MissesNoSightingThatIsClose) {
       }
     }
   }
+  std::vector<CameraSet> of_pairs(pairs.size());
+  filter->look(pairs, of_pairs);
+  EXPECT_EQ(of_pairs, looks);
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     if (c == 2) {
       EXPECT_EQ(passed[c], 0);
