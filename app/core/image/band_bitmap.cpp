@@ -105,12 +105,42 @@ HWY_INLINE void fill(const ImageView& image, const Window& window, Test in_band,
   }
 }
 
+// The same of a window that is less than a word wide: all rows begin and end alike. There must be
+// 64 pixels in a row, from `before` pixels in front of the window on.
+template <class Test>
+HWY_INLINE void fill_narrow(const ImageView& image, const Window& window, int before, Test in_band,
+                            int y_first, int y_end, Bitmap& bitmap) {
+  const auto skipped = static_cast<unsigned>(before);
+  const std::uint64_t inside = ~std::uint64_t{0} >> static_cast<unsigned>(64 - bitmap.width_px());
+  PixelKey* occupied = bitmap.occupied_end();
+  for (int y = y_first; y < y_end; ++y) {
+    const std::uint8_t* pixels = image.row(window.y_min + y) + window.x_min;
+    std::uint64_t* words = bitmap.row(y);
+    words[0] = (band_word(pixels - before, in_band) >> skipped) & inside;
+    std::fill_n(words + 1, Bitmap::kGroupWords, 0U);
+    *occupied = y * kRowStep;
+    occupied += words[0] != 0;
+    bitmap.set_occupied_end(y, occupied);
+  }
+}
+
+template <class Test>
+HWY_INLINE void fill_any(const ImageView& image, const Window& window, Test in_band, int y_first,
+                         int y_end, Bitmap& bitmap) {
+  const int before = std::max(0, window.x_min + 64 - image.width_px);
+  if (bitmap.width_px() < 64 && before <= window.x_min) {
+    fill_narrow(image, window, before, in_band, y_first, y_end, bitmap);
+  } else {
+    fill(image, window, in_band, y_first, y_end, bitmap);
+  }
+}
+
 void fill_rows(const ImageView& image, const Window& window, std::uint8_t lo, std::uint8_t hi,
                int y_first, int y_end, Bitmap& bitmap) {
   if (hi == 255) {
-    fill(image, window, AtLeast{lo}, y_first, y_end, bitmap);
+    fill_any(image, window, AtLeast{lo}, y_first, y_end, bitmap);
   } else {
-    fill(image, window, between(lo, hi), y_first, y_end, bitmap);
+    fill_any(image, window, between(lo, hi), y_first, y_end, bitmap);
   }
 }
 

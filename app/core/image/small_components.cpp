@@ -20,9 +20,9 @@ using Bits = hn::Vec<Lanes>;
 using Ints = hn::RebindToSigned<Lanes>;
 constexpr Lanes kLanes;
 constexpr Ints kInts;
-constexpr std::size_t kVectors = 2;
+constexpr std::size_t kMostVectors = 2;
 constexpr std::size_t kVectorLanes = MaxLanes(kLanes);
-static_assert(kVectors * kVectorLanes <= Beginnings::kMaxLanes);
+static_assert(kMostVectors * kVectorLanes <= Beginnings::kMaxLanes);
 constexpr int kRowBytes = Bitmap::kRowWords * static_cast<int>(sizeof(std::uint64_t));
 constexpr int kSide = SmallComponent::kSide_px;
 
@@ -65,8 +65,9 @@ HWY_INLINE Bits run_at_lowest(Bits row, Bits touched) {
   return hn::IfThenZeroElse(none, hn::Or(up, down));
 }
 
-// Components side by side, each followed from its beginning. Two vectors at a time: the arithmetic
-// of one is awaited behind the other's.
+// Components side by side, each followed from its beginning. Two vectors at a time, where there are
+// so many: the arithmetic of one is awaited behind the other's.
+template <std::size_t kVectors>
 class Followed {
  public:
   static constexpr std::size_t kLaneCount = kVectors * kVectorLanes;
@@ -200,18 +201,26 @@ class Followed {
   Bits left_[kVectors], width_[kVectors], height_[kVectors], taken_[kVectors];
 };
 
+template <std::size_t kVectors>
+HWY_INLINE std::size_t follow(Bitmap& bitmap, const PixelKey* beginnings, std::size_t count,
+                              SmallComponent* to) {
+  Followed<kVectors> followed(bitmap, beginnings);
+  followed.follow();
+  return followed.take(count, to);
+}
+
 // So many of the beginnings as fill all lanes, or all of them, until there is no room; returns how
 // many components.
 std::size_t follow_beginnings(Bitmap& bitmap, bool all, Beginnings& beginnings, SmallComponent* to,
                               const SmallComponent* end) {
-  constexpr std::size_t kLaneCount = Followed::kLaneCount;
+  constexpr std::size_t kLaneCount = kMostVectors * kVectorLanes;
   SmallComponent* next = to;
   std::size_t i = 0;
   while (beginnings.size - i >= (all ? 1 : kLaneCount) && next < end) {
     const std::size_t count = std::min(beginnings.size - i, kLaneCount);
-    Followed followed(bitmap, beginnings.pixels.data() + i);
-    followed.follow();
-    next += followed.take(count, next);
+    const PixelKey* const pixels = beginnings.pixels.data() + i;
+    next += count > kVectorLanes ? follow<kMostVectors>(bitmap, pixels, count, next)
+                                 : follow<1>(bitmap, pixels, count, next);
     i += count;
   }
   if (next >= end) i = beginnings.size;
