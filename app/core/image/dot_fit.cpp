@@ -23,7 +23,7 @@ constexpr double kMaxSemiMajor_px = 24.0;
 constexpr double kMinSemiMinor_px = 0.5;
 constexpr double kGrow_px = 2.75;  // how far outside the region blur still reaches
 constexpr int kRounds = 2;
-constexpr double kConverged = 1.0;  // what the last step took off the sum of squares, in noise
+constexpr double kConverged = 5.0;  // what the last step took off the sum of squares, in noise
 constexpr double kOutlierSigmas = 3.5;
 // Lenses as they are: 0.65 px, with the pixel's own width.
 constexpr double kUsualBlur_px = 0.71;
