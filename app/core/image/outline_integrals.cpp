@@ -26,6 +26,7 @@ constexpr float kC2 = 0.70710678F;
 constexpr float kC3 = 0.38268343F;
 constexpr std::array<float, kSumLanes> kCosine{1.0F, kC1, kC2, kC3, 0.0F, -kC3, -kC2, -kC1};
 constexpr std::array<float, kSumLanes> kSine{0.0F, kC3, kC2, kC1, 1.0F, kC1, kC2, kC3};
+constexpr double kPerTwoRootPi = 0.28209479177387814;
 constexpr float kStep_rad = 0.785398163F;  // twice the step: the other half, too
 
 HWY_INLINE Vector all(double value) {
@@ -88,6 +89,19 @@ void shape(const OutlineModel& model, const Outline& outline, OutlineIntegrals& 
     store(Term::kTxx, times(step_t, xx));
     store(Term::kTxy, times(step_t, xy));
     store(Term::kTyy, times(step_t, yy));
+    const Vector kk = times(k, k);
+    const Vector per_t = hn::Div(k, t);
+    const Vector self = hn::Sub(times(all(0.5), hn::Add(all(1.0), kk)),
+                                times(times(all(0.75), tt), hn::Add(hn::Add(k, k), kk)));
+    store(Term::kBb, times(step, hn::Add(times(k, per_t), times(t, self))));
+    const Vector lit = hn::Sub(all(kPerTwoRootPi), times(all(2.5 * kPerTwoRootPi), times(k, tt)));
+    store(Term::kBe, times(step, hn::Add(times(all(0.5), hn::Sub(k, tt)), times(t, lit))));
+    const Vector own =
+        hn::Sub(times(all(0.75), times(k, tt)), hn::Add(all(1.0), times(all(0.5), kk)));
+    const Vector by_form = times(step, hn::Add(hn::Sub(per_t, times(per_t, k)), times(t, own)));
+    store(Term::kBxx, times(by_form, xx));
+    store(Term::kBxy, times(by_form, xy));
+    store(Term::kByy, times(by_form, yy));
     const Vector curved = hn::Sub(times(all(1.5), tt), times(k, hn::Sub(two, k)));
     const Vector h = times(all(outline.determinant), across);
     const Vector twice = hn::Add(h, times(h, curved));

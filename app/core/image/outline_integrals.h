@@ -27,6 +27,8 @@ struct OutlineIntegrals {
     kT, kTt,                        // t, t^2
     kXx, kXy, kYy,                  // 1 + t^2 - k, k = blur^2 (trace A - 1 / h^2), with u u^T
     kTxx, kTxy, kTyy,               // t with u u^T
+    // What the blur does (ShapeInformation): to itself, to the contrast, and with u u^T.
+    kBb, kBe, kBxx, kBxy, kByy,
     kXxxx, kXxxy, kXxyy, kXyyy, kYyyy,  // h (1 + 3/2 t^2 - 2 k + k^2), with four of u
     kTerms
   };

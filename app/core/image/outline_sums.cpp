@@ -114,14 +114,14 @@ struct LaneModel {
 };
 
 // Where some pixels are: from the centre, and z of them; the outline moves by h_per_m where u^T A u
-// does by 2.
+// does by 2, and z by -by_blur / blur where the blur does by 1.
 struct Place {
   // Spelled out: a constructor of the compiler's making would be built for another processor.
   HWY_INLINE Place() {}
-  HWY_INLINE Place(Vector x_of, Vector y_of, Vector z_of, Vector h_per_m_of)
-      : x(x_of), y(y_of), z(z_of), h_per_m(h_per_m_of) {}
+  HWY_INLINE Place(Vector x_of, Vector y_of, Vector z_of, Vector h_per_m_of, Vector by_blur_of)
+      : x(x_of), y(y_of), z(z_of), h_per_m(h_per_m_of), by_blur(by_blur_of) {}
 
-  Vector x, y, z, h_per_m;
+  Vector x, y, z, h_per_m, by_blur;
 };
 
 // With m = sqrt(u^T A u) a point is h (1 - m) inside the outline, h = m / |A u|. Blur moves a
@@ -136,10 +136,12 @@ HWY_INLINE Place place_at(const LaneModel& model, Vector x, Vector y) {
   const Vector g2_off = hn::Add(g2, hn::Mul(model.trace, all(0.5e-4)));
   const Vector q_off = hn::Add(q, tiny);
   const Vector per_h2 = hn::Div(g2_off, q_off);
-  const Vector m2 = hn::Add(q, hn::Mul(model.blur2, hn::Sub(model.trace, per_h2)));
+  const Vector shift = hn::Mul(model.blur2, hn::Sub(model.trace, per_h2));
+  const Vector m2 = hn::Add(q, shift);
   const Vector h_per_m = hn::Div(all(1.0), hn::Sqrt(hn::Mul(per_h2, m2)));
-  const Vector z = hn::Mul(hn::Mul(h_per_m, model.per_blur), hn::Sub(hn::Sqrt(m2), m2));
-  return {x, y, z, h_per_m};
+  const Vector in_blurs = hn::Mul(h_per_m, model.per_blur);
+  const Vector z = hn::Mul(in_blurs, hn::Sub(hn::Sqrt(m2), m2));
+  return {x, y, z, h_per_m, hn::Add(z, hn::Mul(in_blurs, shift))};
 }
 
 // The places of some blocks. They are worked out before anything is summed: then many roots and
@@ -165,9 +167,9 @@ class Places {
   Place of_[kBlocks];
 };
 
-// Of some pixels against the outline. Where none is on the blurred edge, p and w are nothing.
+// Of some pixels against the outline. Where none is on the blurred edge, p, b and w are nothing.
 struct Edge {
-  Vector e, p, z, w;
+  Vector e, p, b, w;
   bool any;
 };
 
@@ -181,7 +183,8 @@ HWY_INLINE Edge edge_at(const LaneModel& model, const Place& place) {
   }
   const Vector cut = hn::Min(hn::Max(z, all(-kCut)), all(kCut));
   const Normal normal(cut);
-  return {normal.e, normal.p, cut, hn::Mul(normal.p, place.h_per_m), true};
+  return {normal.e, normal.p, hn::Mul(normal.p, place.by_blur), hn::Mul(normal.p, place.h_per_m),
+          true};
 }
 
 template <std::size_t kTerms>
@@ -235,7 +238,7 @@ HWY_INLINE void add_common_edge(const Compared& at, Sums& sums) {
   sums.add(ResidualSums::kRwxx, hn::Mul(rwx, at.x));
   sums.add(ResidualSums::kRwxy, hn::Mul(rwx, at.y));
   sums.add(ResidualSums::kRwyy, hn::Mul(rwy, at.y));
-  sums.add(ResidualSums::kRpz, hn::Mul(at.r, hn::Mul(at.edge.p, at.edge.z)));
+  sums.add(ResidualSums::kRb, hn::Mul(at.r, at.edge.b));
 }
 
 template <class Sums>

@@ -66,11 +66,12 @@ bool list_pixels(const ImageView& patch, const PatchRows& rows, DotPixels& pixel
 
 // Sums over the pixels of the residual r = grey - model. u: place from the centre; e: how much of
 // a pixel the dot covers; p: the standard normal density at z, the distance from the outline in
-// blurs; w: p over the length of A u, which is how far the outline moves when u^T A u does.
+// blurs; w: p over the length of A u, which is how far the outline moves when u^T A u does; b: p
+// times how far z moves when the logarithm of the blur falls.
 struct ResidualSums {
   // clang-format off
   enum Term : std::size_t {
-    kR, kRx, kRy, kRe, kRwx, kRwy, kRwxx, kRwxy, kRwyy, kRpz,
+    kR, kRx, kRy, kRe, kRwx, kRwy, kRwxx, kRwxy, kRwyy, kRb,
     kCommon,
     // How the model may fail: the outline's third harmonics and a slope of the dot's own light.
     kRw3c = kCommon, kRw3s, kRex, kRey, kRr, kRre, kRrp,

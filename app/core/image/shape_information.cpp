@@ -39,9 +39,10 @@ const double kPerRootPi = 1.0 / std::sqrt(std::numbers::pi);
 
 }  // namespace
 
-// The derivatives are -c/2s w (x^2, 2 x y, y^2), -c/s p z, e and 1, with p = phi(z), e = Phi(z) and
-// w = p h / m (outline_sums.h). Along the ray of an angle z = (1 - m) / t, u^T A u = m^2 - k and
-// dx dy = det(root) t m dz dangle: over z all the products are moments of phi, phi^2 and phi Phi.
+// The derivatives are -c/2s w (x^2, 2 x y, y^2), -c/s b, e and 1, with p = phi(z), e = Phi(z), w =
+// p h / m and b = p (z + k / t m) (outline_sums.h). Along the ray of an angle z = (1 - m) / t,
+// u^T A u = m^2 - k and dx dy = det(root) t m dz dangle: over z all the products are moments of
+// phi, phi^2 and phi Phi, with 1 / m = 1 + t z + t^2 z^2.
 ShapeInformation::ShapeInformation(const OutlineModel& model, const Outline& outline,
                                    const OutlineIntegrals& integrals, double pixels,
                                    double blur_prior) {
@@ -62,19 +63,19 @@ ShapeInformation::ShapeInformation(const OutlineModel& model, const Outline& out
   m(2, 1) = 2.0 * twice * of[Term::kXyyy];
   m(2, 2) = twice * of[Term::kYyyy];
   const double by_blur = 0.5 * kPerRootPi * edge * -once;
-  m(3, 0) = -by_blur * of[Term::kTxx];
-  m(3, 1) = -2.0 * by_blur * of[Term::kTxy];
-  m(3, 2) = -by_blur * of[Term::kTyy];
-  m(3, 3) = 0.25 * kPerRootPi * edge * edge * area * of[Term::kT] + blur_prior;
+  m(3, 0) = by_blur * of[Term::kBxx];
+  m(3, 1) = 2.0 * by_blur * of[Term::kBxy];
+  m(3, 2) = by_blur * of[Term::kByy];
+  m(3, 3) = 0.5 * kPerRootPi * edge * edge * area * of[Term::kBb] + blur_prior;
   m(4, 0) = once * (0.5 * of[Term::kXx] - kPerRootPi * of[Term::kTxx]);
   m(4, 1) = 2.0 * once * (0.5 * of[Term::kXy] - kPerRootPi * of[Term::kTxy]);
   m(4, 2) = once * (0.5 * of[Term::kYy] - kPerRootPi * of[Term::kTyy]);
-  m(4, 3) = -0.5 * edge * area * (kPerRootPi * of[Term::kT] - of[Term::kTt]);
+  m(4, 3) = -edge * area * of[Term::kBe];
   m(4, 4) = area * (0.5 * inside - kPerRootPi * of[Term::kT]);
   m(5, 0) = once * of[Term::kXx];
   m(5, 1) = 2.0 * once * of[Term::kXy];
   m(5, 2) = once * of[Term::kYy];
-  m(5, 3) = edge * area * of[Term::kTt];
+  m(5, 3) = -edge * area * (2.0 * std::numbers::pi * trace - 2.0 * of[Term::kTt]);
   m(5, 4) = 0.5 * area * inside;
   m(5, 5) = pixels;
   m.triangularView<Eigen::StrictlyUpper>() = m.transpose();
@@ -106,7 +107,7 @@ ShapeInformation::Vector ShapeInformation::gradient(const OutlineModel& model,
   const double edge = model.contrast_dn / model.blur_px;
   Vector g;
   g << -0.5 * edge * sums[ResidualSums::kRwxx], -edge * sums[ResidualSums::kRwxy],
-      -0.5 * edge * sums[ResidualSums::kRwyy], -edge * sums[ResidualSums::kRpz],
+      -0.5 * edge * sums[ResidualSums::kRwyy], -edge * sums[ResidualSums::kRb],
       sums[ResidualSums::kRe], 0.0;
   return g;
 }
