@@ -60,7 +60,7 @@ void shape(const OutlineModel& model, const Outline& outline, OutlineIntegrals& 
   SumLanes<Term::kTerms> lanes;
   const double blur2 = model.blur_px * model.blur_px;
   const Vector trace = all(blur2 * model.shape.trace());
-  const Vector step = all(kStep_rad);
+  const Vector step = all(static_cast<double>(kStep_rad));
   const Vector two = all(2.0);
   for (int part = 0; part < static_cast<int>(kSumLanes); part += kStep) {
     const Points at(outline, part);
@@ -122,7 +122,7 @@ constexpr std::size_t kThirds = 14;
 void thirds(const Outline& outline, std::array<double, kThirds>& sums) {
   SumLanes<kThirds> lanes;
   const Vector determinant = all(outline.determinant);
-  const Vector step = all(kStep_rad);
+  const Vector step = all(static_cast<double>(kStep_rad));
   for (int part = 0; part < static_cast<int>(kSumLanes); part += kStep) {
     const Points at(outline, part);
     std::size_t term = 0;
