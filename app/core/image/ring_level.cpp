@@ -16,10 +16,16 @@ constexpr double kShareSigmas = 1.05;  // width of the middle two fifths of a no
 struct Histogram {
   std::array<std::uint16_t, kGreys> of{};
   int count = 0;
+  int darkest = kGreys - 1;
+  int brightest = 0;
 
   // Pixels of columns x with before < x < after.
   void add(const std::uint8_t* pixels, int before, int after) {
-    for (int x = before + 1; x < after; ++x) ++of[pixels[x]];
+    for (int x = before + 1; x < after; ++x) {
+      ++of[pixels[x]];
+      darkest = std::min<int>(darkest, pixels[x]);
+      brightest = std::max<int>(brightest, pixels[x]);
+    }
     count += std::max(after - before - 1, 0);
   }
 };
@@ -51,8 +57,8 @@ bool find_level(const ImageView& patch, const PatchRows& rows, RingLevel& level)
   const int wanted = static_cast<int>(kShare * histogram.count);
   int shortest = kGreys + 1;
   int held = 0;
-  int begin = 0;
-  for (int end = 0; end < kGreys; ++end) {
+  int begin = histogram.darkest;
+  for (int end = histogram.darkest; end <= histogram.brightest; ++end) {
     held += histogram.of[static_cast<std::size_t>(end)];
     while (held - histogram.of[static_cast<std::size_t>(begin)] >= wanted) {
       held -= histogram.of[static_cast<std::size_t>(begin)];
