@@ -1,6 +1,7 @@
 #include "app/core/acquisition/rigid_fit.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
