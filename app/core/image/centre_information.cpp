@@ -1,6 +1,7 @@
 #include "app/core/image/centre_information.h"
 
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -20,21 +21,101 @@ constexpr double kBlurredLight = 8.0;
 
 const double kRootPi = std::sqrt(std::numbers::pi);
 
+// Half a turn in equal steps; the integrands are the same on the other half.
+constexpr std::size_t kNodes = 8;
+constexpr double kC1 = 0.92387953251128674;
+constexpr double kC2 = 0.70710678118654752;
+constexpr double kC3 = 0.38268343236508977;
+constexpr std::array<std::array<double, 2>, kNodes> kCircle{{{1.0, 0.0},
+                                                             {kC1, kC3},
+                                                             {kC2, kC2},
+                                                             {kC3, kC1},
+                                                             {0.0, 1.0},
+                                                             {-kC3, kC1},
+                                                             {-kC2, kC2},
+                                                             {-kC1, kC3}}};
+
+Matrix2d lower_root(const Matrix2d& m) {
+  Matrix2d root = Matrix2d::Zero();
+  root(0, 0) = std::sqrt(m(0, 0));
+  root(1, 0) = m(1, 0) / root(0, 0);
+  root(1, 1) = std::sqrt(m(1, 1) - root(1, 0) * root(1, 0));
+  return root;
+}
+
+constexpr double kStep_rad = 2.0 * std::numbers::pi / kNodes;
+
+Vector2d third_harmonics(const Vector2d& u) {
+  const double x = u.x();
+  const double y = u.y();
+  return {x * x * x - 3.0 * x * y * y, 3.0 * x * x * y - y * y * y};
+}
+
+// A point of the outline, root e, and d place / d angle: its length is by how much a step of angle
+// is longer along the outline. The normal is across it, and |A place| is that length over root's
+// determinant.
+struct OutlinePoint {
+  OutlinePoint(const Matrix2d& root, const std::array<double, 2>& e)
+      : place(root(0, 0) * e[0], root(1, 0) * e[0] + root(1, 1) * e[1]),
+        across(root(1, 1) * e[0] - root(1, 0) * e[1], root(0, 0) * e[1]),
+        speed(across.norm()) {}
+
+  Vector2d place;
+  Vector2d across;  // the normal times speed
+  double speed;
+};
+
+// Along the outline, by length: u u^T, and h = 1 / |A u| times the third harmonics with each other,
+// the normal and u.
+struct ThirdIntegrals {
+  explicit ThirdIntegrals(const Matrix2d& root) {
+    const double determinant = root.determinant();
+    for (const auto& e : kCircle) {
+      const OutlinePoint at(root, e);
+      const double h = determinant / at.speed;
+      const Vector2d third = third_harmonics(at.place);
+      const Vector2d third_step = kStep_rad * h * third;
+      place_place += kStep_rad * at.speed * at.place * at.place.transpose();
+      third_third += determinant * third_step * third.transpose();
+      third_normal += third_step * at.across.transpose();
+      third_place += kStep_rad * determinant * third * at.place.transpose();
+    }
+  }
+
+  Matrix2d place_place = Matrix2d::Zero();
+  Matrix2d third_third = Matrix2d::Zero();
+  Matrix2d third_normal = Matrix2d::Zero();
+  Matrix2d third_place = Matrix2d::Zero();
+};
+
 }  // namespace
 
 // Across an edge of blur s, by distance, the integral of (phi / s)^2 is 1 / (2 sqrt(pi) s), of e
 // phi / s it is 1/2, and e - e^2 has s / sqrt(pi).
-CentreInformation::CentreInformation(const OutlineModel& model, const Outline& outline,
-                                     const OutlineIntegrals& integrals, const FitWindow& window)
-    : area_(std::numbers::pi * outline.determinant), centre_slope_(model.contrast_dn * area_) {
-  using Term = OutlineIntegrals;
+CentreInformation::CentreInformation(const OutlineModel& model, const FitWindow& window) {
+  integrate(model);
   const double c = model.contrast_dn;
-  Matrix2d normal_normal;
-  normal_normal << integrals[Term::kNxx], integrals[Term::kNxy], integrals[Term::kNxy],
-      integrals[Term::kNyy];
+  centre_slope_ = c * area_;
   per_scatter_ = window.scatter.inverse();
-  const Matrix2d centre = c * c / (2.0 * kRootPi * model.blur_px) * normal_normal;
+  const Matrix2d centre = c * c / (2.0 * kRootPi * model.blur_px) * normal_normal_;
   covariance_ = (centre - centre_slope_ * centre_slope_ * per_scatter_).inverse();
+}
+
+void CentreInformation::integrate(const OutlineModel& model) {
+  root_ = lower_root(model.shape.inverse());
+  area_ = std::numbers::pi * root_.determinant();
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+  for (const auto& e : kCircle) {
+    const OutlinePoint at(root_, e);
+    const double per_speed = 1.0 / at.speed;
+    length_ += kStep_rad * at.speed;
+    xx += per_speed * at.across.x() * at.across.x();
+    xy += per_speed * at.across.x() * at.across.y();
+    yy += per_speed * at.across.y() * at.across.y();
+  }
+  normal_normal_ << kStep_rad * xx, kStep_rad * xy, kStep_rad * xy, kStep_rad * yy;
 }
 
 Vector2d CentreInformation::centre_gradient(const OutlineModel& model, const ResidualSums& sums) {
@@ -49,13 +130,14 @@ CentreVector CentreInformation::step(const CentreVector& g) const {
   return step;
 }
 
-double CentreInformation::asymmetry(const OutlineModel& model, const Outline& outline,
-                                    const ResidualSums& sums, const CentreVector& step) const {
-  const ThirdIntegrals third = integrate_thirds(outline);
+double CentreInformation::asymmetry(const OutlineModel& model, const ResidualSums& sums,
+                                    const CentreVector& step) const {
+  const ThirdIntegrals third(root_);
   const double c = model.contrast_dn;
   const double s = model.blur_px;
   const double edge = c * c / (2.0 * kRootPi * s);
-  const Matrix2d light = 0.25 * area_ * outline.per_shape + area_ * s * s * Matrix2d::Identity();
+  const Matrix2d light =
+      0.25 * area_ * model.shape.inverse() + area_ * s * s * Matrix2d::Identity();
   const double blurred = kBlurredLight * s * s * std::numbers::pi / area_;
   Matrix42 by_centre;
   by_centre << edge * third.third_normal, 0.5 * c * area_ * Matrix2d::Identity();

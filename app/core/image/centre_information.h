@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "app/core/image/outline_integrals.h"
+#include "app/core/image/outline_sums.h"
 
 namespace dottrack::image {
 
@@ -24,10 +24,12 @@ struct CentreVector {
 
 class CentreInformation {
  public:
-  CentreInformation(const OutlineModel& model, const Outline& outline,
-                    const OutlineIntegrals& integrals, const FitWindow& window);
+  CentreInformation(const OutlineModel& model, const FitWindow& window);
 
   double area_px2() const { return area_; }
+  double length_px() const { return length_; }
+  // Lower; shape^-1 = root root^T.
+  const Eigen::Matrix2d& root() const { return root_; }
   static Eigen::Vector2d centre_gradient(const OutlineModel& model, const ResidualSums& sums);
   // The Fisher scoring step.
   CentreVector step(const CentreVector& gradient) const;
@@ -35,12 +37,17 @@ class CentreInformation {
   const Eigen::Matrix2d& covariance() const { return covariance_; }
   // How much the residuals' asymmetry shows of an outline with third harmonics and of a dot with a
   // slope of light of its own: chi-square of 4 degrees of freedom at unit noise, after the step.
-  double asymmetry(const OutlineModel& model, const Outline& outline, const ResidualSums& sums,
+  double asymmetry(const OutlineModel& model, const ResidualSums& sums,
                    const CentreVector& step) const;
 
  private:
-  double area_;
-  double centre_slope_;  // times the identity, by Gauss's theorem
+  void integrate(const OutlineModel& model);
+
+  Eigen::Matrix2d root_;
+  double area_ = 0.0;
+  double length_ = 0.0;
+  Eigen::Matrix2d normal_normal_;  // n n^T along the outline, by length
+  double centre_slope_ = 0.0;      // times the identity, by Gauss's theorem
   Eigen::Matrix2d per_scatter_;
   Eigen::Matrix2d covariance_;
 };

@@ -8,7 +8,6 @@
 #include "app/core/image/centre_information.h"
 #include "app/core/image/dot_patch.h"
 #include "app/core/image/dot_verdict.h"
-#include "app/core/image/outline_integrals.h"
 #include "app/core/image/outline_sums.h"
 #include "app/core/image/ring_sums.h"
 #include "app/core/image/shape_information.h"
@@ -24,10 +23,12 @@ constexpr double kMaxSemiMajor_px = 24.0;
 constexpr double kMinSemiMinor_px = 0.5;
 constexpr double kGrow_px = 2.75;  // how far outside the region blur still reaches
 constexpr int kRounds = 2;
-constexpr double kConverged = 5.0;    // what the last step took off the sum of squares, in noise
-constexpr double kNearest_px = 5.0;   // where the ring's nearest part ends
-constexpr double kLit_px = 1.6;       // as far out there is light of the dot
-constexpr double kEdge_px = 0.8;      // where the outline may be
+constexpr double kConverged = 1.0;   // what the last step took off the sum of squares, in noise
+constexpr double kNearest_px = 5.0;  // where the ring's nearest part ends
+constexpr double kLit_px = 1.6;      // as far out there is light of the dot
+constexpr double kEdge_px = 0.8;     // where the outline may be
+constexpr double kTail = 0.02;       // of the contrast: what blur puts outside of that
+constexpr double kLeastTail_dn = 3.0;
 constexpr double kUnevenRing = 0.04;  // of the contrast: more is not noise alone
 constexpr double kOutliersPerPixel = 0.01;
 // Lenses as they are: 0.65 px, with the pixel's own width.
@@ -58,17 +59,15 @@ DotFit unfitted(const Region& region) {
 
 class Fitting {
  public:
-  Fitting(const ImageView& image, const Region& region)
-      : image_(image),
-        region_(region),
-        cosine_(std::cos(region.angle_rad)),
-        sine_(std::sin(region.angle_rad)) {}
+  Fitting(const ImageView& image, const Region& region) : image_(image), region_(region) {}
 
   bool run() {
+    const double cosine = std::cos(region_.angle_rad);
+    const double sine = std::sin(region_.angle_rad);
     const double outer_px =
         std::min(4.0 + 0.8 * region_.semi_major_px, kMaxReach_px - region_.semi_major_px);
-    const GrownEllipse inner(region_, cosine_, sine_, kGrow_px);
-    const GrownEllipse outer(region_, cosine_, sine_, outer_px);
+    const GrownEllipse inner(region_, cosine, sine, kGrow_px);
+    const GrownEllipse outer(region_, cosine, sine, outer_px);
     const Patch patch = patch_around(image_, region_.centroid_px, outer);
     if (patch.columns() <= 0 || patch.rows() <= 0) return false;
     corner_ = Vector2d(patch.x_min, patch.y_min);
@@ -90,38 +89,45 @@ class Fitting {
 
  private:
   bool sum_up(const ImageView& patch, const PatchRows& rows) {
-    RingMask mask;
-    sums_ = sum_patch(patch, rows, mask);
+    sums_ = sum_patch(patch, rows);
     if (!fit(sums_.ring, plane_)) return false;
     const GreySums whole = sums_.ring;
-    drop_outliers(patch, mask, rounded(plane_, noise_limit_dn(plane_)), sums_.ring);
+    drop_outliers(patch, rows, rounded(plane_, noise_limit_dn(plane_)), sums_.ring);
     if (sums_.ring.n != whole.n && !fit(sums_.ring, plane_)) return false;
     return list_pixels(patch, rows, pixels_) &&
-           (!is_uneven(whole) || take_own_ground(patch, rows, mask, whole));
+           (!is_uneven(whole) || take_own_ground(patch, rows, whole));
+  }
+
+  // Of the middle to the ring's plane.
+  double seen_contrast_dn() const {
+    const Vector2d middle = region_.centroid_px - corner_;
+    const double around_dn =
+        plane_.at_origin + plane_.per_x * middle.x() + plane_.per_y * middle.y();
+    return std::abs(core_grey(region_.centroid_px) - around_dn);
   }
 
   // Something else shows in the ring.
   bool is_uneven(const GreySums& whole) const {
-    const double core_dn = core_grey(region_.centroid_px);
-    const Vector2d middle = region_.centroid_px - corner_;
-    const double around_dn =
-        plane_.at_origin + plane_.per_x * middle.x() + plane_.per_y * middle.y();
     const auto outliers = static_cast<double>(whole.n - sums_.ring.n);
     return outliers > kOutliersPerPixel * static_cast<double>(whole.n) ||
-           plane_.sigma > kUnevenRing * std::abs(core_dn - around_dn);
+           plane_.sigma > kUnevenRing * seen_contrast_dn();
   }
 
-  bool take_own_ground(const ImageView& patch, const PatchRows& rows, const RingMask& mask,
-                       const GreySums& whole) {
+  bool take_own_ground(const ImageView& patch, const PatchRows& rows, const GreySums& whole) {
+    const double cosine = std::cos(region_.angle_rad);
+    const double sine = std::sin(region_.angle_rad);
     const auto spans_of = [&](double grow_px) {
       Spans spans;
-      const GrownEllipse ellipse(region_, cosine_, sine_, grow_px);
+      const GrownEllipse ellipse(region_, cosine, sine, grow_px);
       set_spans(ellipse, region_.centroid_px - corner_, rows.count, patch.width_px, spans);
       return spans;
     };
-    find_own_ground(patch, {rows.count, spans_of(kNearest_px), rows.inner}, mask, whole, plane_);
+    find_own_ground(patch, rows, spans_of(kNearest_px), whole, plane_);
     sums_.ring = whole;
-    drop_strangers(patch, rows, {spans_of(kLit_px), spans_of(kEdge_px)}, plane_, sums_, pixels_);
+    drop_strangers(patch, rows,
+                   {spans_of(kLit_px), spans_of(kEdge_px),
+                    std::max(kTail * seen_contrast_dn(), kLeastTail_dn)},
+                   plane_, sums_, pixels_);
     return fit(sums_.ring, plane_);
   }
 
@@ -163,7 +169,7 @@ class Fitting {
     if (!(std::abs(model_.contrast_dn) >= kMinContrast_dn) || !(area > 0.0)) return false;
     const double scale = std::clamp(area / seen, 0.5, 2.0);
     model_.shape =
-        (scale * ellipse_matrix(region_.semi_major_px, region_.semi_minor_px, cosine_, sine_))
+        (scale * ellipse_matrix(region_.semi_major_px, region_.semi_minor_px, region_.angle_rad))
             .inverse();
     return true;
   }
@@ -198,39 +204,18 @@ class Fitting {
     const double prior = noise2 * blur_prior();
     for (int round = 1; round <= kRounds; ++round) {
       ResidualSums sums;
-      sum_gradient(pixels_, model_, sums);
-      const Outline first(model_.shape);
-      const OutlineIntegrals integrals = integrate(model_, first);
-      const ShapeInformation shape(model_, first, integrals, window_.count, prior);
-      if (!shape.ok()) return false;
-      const CentreInformation centre(model_, first, integrals, window_);
-      if (!take(step(sums, centre, shape, prior), first)) return false;
+      DerivativeSums derivatives;
+      sum_derivatives(pixels_, model_, sums, derivatives);
+      const ShapeInformation shape(model_, derivatives, window_.count, prior);
+      if (!shape.ok() || !take(step(sums, shape, prior))) return false;
       sum_residuals(pixels_, model_, sums);
-      if (!finish(sums, shape, prior, noise2)) return false;
-      if (left_.gain_dn2 <= kConverged * noise2) break;
+      const Step last = step(sums, shape, prior);
+      set_left(sums, last, noise2);
+      left_.shape_covariance = shape.covariance().topLeftCorner<3, 3>();
+      if (!take(last) || !determined()) return false;
+      if (last.gain_dn2 <= kConverged * noise2) break;
     }
     return true;
-  }
-
-  bool finish(const ResidualSums& sums, const ShapeInformation& shape, double prior,
-              double noise2) {
-    const Outline outline(model_.shape);
-    const OutlineIntegrals integrals = integrate(model_, outline);
-    const CentreInformation centre(model_, outline, integrals, window_);
-    const Step last = step(sums, centre, shape, prior);
-    left_.pixels = pixels_.count;
-    left_.area_px2 = centre.area_px2();
-    left_.length_px = integrals[OutlineIntegrals::kLength];
-    left_.ring_noise_dn2 = noise2;
-    left_.gain_dn2 = last.gain_dn2;
-    left_.chi2_dn2 = sums[ResidualSums::kRr] - last.gain_dn2;
-    left_.covered_chi2_dn2 = sums[ResidualSums::kRre];
-    left_.edge_chi2_dn2 =
-        sums[ResidualSums::kRrp] - kEdgeShare * std::min(last.gain_dn2, kMaxGain * noise2);
-    left_.asymmetry_dn2 = centre.asymmetry(model_, outline, sums, last.centre);
-    left_.centre_covariance = centre.covariance();
-    left_.shape_covariance = shape.covariance().topLeftCorner<3, 3>();
-    return take(last, outline) && determined();
   }
 
   // Cut off by the image's end, the ring may say too little.
@@ -250,13 +235,14 @@ class Fitting {
   }
 
   struct Step {
+    CentreInformation information;
     CentreVector centre;
     ShapeInformation::Vector shape;
     double gain_dn2;  // of the sum of squares
   };
 
-  Step step(const ResidualSums& sums, const CentreInformation& information,
-            const ShapeInformation& shape, double prior) const {
+  Step step(const ResidualSums& sums, const ShapeInformation& shape, double prior) const {
+    CentreInformation information(model_, window_);
     CentreVector centre;
     ShapeInformation::Vector even = ShapeInformation::gradient(model_, sums);
     even[3] += prior * (kUsualBlur_px - model_.blur_px);
@@ -266,7 +252,7 @@ class Fitting {
     const ShapeInformation::Vector shape_step = shape.covariance() * even;
     const double gain = centre.centre.dot(centre_step.centre) +
                         centre.slope.dot(centre_step.slope) + even.dot(shape_step);
-    return {centre_step, shape_step, gain};
+    return {information, centre_step, shape_step, gain};
   }
 
   // The ring's pixels have no part in the dot: their residuals follow from their sums.
@@ -288,7 +274,7 @@ class Fitting {
     slope_gradient = ring_place + dot_place + dot_r * model_.centre - level_gradient * window_.mean;
   }
 
-  bool take(const Step& step, const Outline& outline) {
+  bool take(const Step& step) {
     const double at_mean =
         model_.background_dn + model_.slope_dn.dot(window_.mean - model_.centre) + step.shape[5];
     model_.centre += step.centre.centre;
@@ -296,28 +282,38 @@ class Fitting {
     model_.background_dn = at_mean + model_.slope_dn.dot(model_.centre - window_.mean);
     model_.contrast_dn += step.shape[4];
     model_.blur_px = std::clamp(model_.blur_px + step.shape[3], kMinBlur_px, kMaxBlur_px);
-    change_shape(step, outline);
+    change_shape(step);
     const Vector2d off = centre_px() - region_.centroid_px;
     return model_.shape.allFinite() && std::abs(model_.contrast_dn) >= kMinContrast_dn &&
            off.norm() <= 0.5 * region_.semi_major_px + 0.5;
   }
 
   // By a strain of the outline, which is closer to linear than A, and leaves it an ellipse.
-  void change_shape(const Step& step, const Outline& outline) {
-    const Matrix2d& root = outline.root;
+  void change_shape(const Step& step) {
+    const Matrix2d& root = step.information.root();
     Matrix2d change;
     change << step.shape[0], step.shape[1], step.shape[1], step.shape[2];
     Matrix2d strain = root.transpose() * change * root;
     strain *= std::min(1.0, kMaxStrain / std::max(strain.norm(), 1e-9));
     const Matrix2d strained = root * (Matrix2d::Identity() - 0.5 * strain);
-    left_.per_shape = strained * strained.transpose();
-    model_.shape = left_.per_shape.inverse();
+    model_.shape = (strained * strained.transpose()).inverse();
+  }
+
+  void set_left(const ResidualSums& sums, const Step& step, double noise2) {
+    left_.pixels = pixels_.count;
+    left_.area_px2 = step.information.area_px2();
+    left_.length_px = step.information.length_px();
+    left_.ring_noise_dn2 = noise2;
+    left_.chi2_dn2 = sums[ResidualSums::kRr] - step.gain_dn2;
+    left_.covered_chi2_dn2 = sums[ResidualSums::kRre];
+    left_.edge_chi2_dn2 =
+        sums[ResidualSums::kRrp] - kEdgeShare * std::min(step.gain_dn2, kMaxGain * noise2);
+    left_.asymmetry_dn2 = step.information.asymmetry(model_, sums, step.centre);
+    left_.centre_covariance = step.information.covariance();
   }
 
   const ImageView& image_;
   const Region& region_;
-  double cosine_;  // of its angle
-  double sine_;
   Vector2d corner_;
   PatchSums sums_;
   Plane plane_;

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "app/core/image/ring_sums.h"
@@ -25,15 +26,11 @@ struct OutlineModel {
 };
 
 // A^-1 of an ellipse.
-inline Eigen::Matrix2d ellipse_matrix(double major_px, double minor_px, double cosine,
-                                      double sine) {
-  const double major2 = major_px * major_px;
-  const double minor2 = minor_px * minor_px;
-  const double xy = cosine * sine * (major2 - minor2);
-  Eigen::Matrix2d matrix;
-  matrix << cosine * cosine * major2 + sine * sine * minor2, xy, xy,
-      sine * sine * major2 + cosine * cosine * minor2;
-  return matrix;
+inline Eigen::Matrix2d ellipse_matrix(double major_px, double minor_px, double angle_rad) {
+  const Eigen::Vector2d along(std::cos(angle_rad), std::sin(angle_rad));
+  const Eigen::Vector2d across(-along.y(), along.x());
+  return major_px * major_px * along * along.transpose() +
+         minor_px * minor_px * across * across.transpose();
 }
 
 // A dot's pixels, one after the other, in the patch's coordinates.
@@ -66,12 +63,11 @@ bool list_pixels(const ImageView& patch, const PatchRows& rows, DotPixels& pixel
 
 // Sums over the pixels of the residual r = grey - model. u: place from the centre; e: how much of
 // a pixel the dot covers; p: the standard normal density at z, the distance from the outline in
-// blurs; w: p over the length of A u, which is how far the outline moves when u^T A u does; b: p
-// times how far z moves when the logarithm of the blur falls.
+// blurs; w: p over the length of A u, which is how far the outline moves when u^T A u does.
 struct ResidualSums {
   // clang-format off
   enum Term : std::size_t {
-    kR, kRx, kRy, kRe, kRwx, kRwy, kRwxx, kRwxy, kRwyy, kRb,
+    kR, kRx, kRy, kRe, kRwx, kRwy, kRwxx, kRwxy, kRwyy, kRpz,
     kCommon,
     // How the model may fail: the outline's third harmonics and a slope of the dot's own light.
     kRw3c = kCommon, kRw3s, kRex, kRey, kRr, kRre, kRrp,
@@ -83,9 +79,25 @@ struct ResidualSums {
   double operator[](Term term) const { return of[term]; }
 };
 
+// Sums of products of the model's derivatives, as above without r; wxxyy is w^2 x^2 y^2 and so on.
+struct DerivativeSums {
+  // clang-format off
+  enum Term : std::size_t {
+    kWxxxx, kWxxxy, kWxxyy, kWxyyy, kWyyyy,
+    kWxx, kWxy, kWyy, kEwxx, kEwxy, kEwyy, kPzwxx, kPzwxy, kPzwyy,
+    kPzpz, kPze, kPz, kEe, kE,
+    kTerms
+  };
+  // clang-format on
+  std::array<double, kTerms> of{};
+
+  double operator[](Term term) const { return of[term]; }
+};
+
 // Single precision in lanes; the same on every processor. The first leaves out what follows
 // kCommon.
-void sum_gradient(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals);
+void sum_derivatives(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals,
+                     DerivativeSums& derivatives);
 void sum_residuals(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals);
 
 }  // namespace dottrack::image

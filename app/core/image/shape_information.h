@@ -1,10 +1,10 @@
 #pragma once
 // What a dot's pixels say about its outline's shape and blur and the two grey levels: the normal
-// equations of a scoring step, from integrals along the outline instead of sums over the pixels.
+// equations of a Gauss-Newton step, from sums over the pixels.
 
 #include <Eigen/Core>
 
-#include "app/core/image/outline_integrals.h"
+#include "app/core/image/outline_sums.h"
 
 namespace dottrack::image {
 
@@ -16,22 +16,20 @@ class ShapeInformation {
   using Matrix = Eigen::Matrix<double, kParameters, kParameters>;
 
   // `pixels`: of the dot and its ring. `blur_prior`: information on the blur from elsewhere.
-  ShapeInformation(const OutlineModel& model, const Outline& outline,
-                   const OutlineIntegrals& integrals, double pixels, double blur_prior);
+  ShapeInformation(const OutlineModel& model, const DerivativeSums& sums, double pixels,
+                   double blur_prior);
 
-  bool ok() const { return ok_; }  // every parameter is determined
-  const Matrix& information() const { return information_; }
+  bool ok() const { return ok_; }                           // every parameter is determined
   const Matrix& covariance() const { return covariance_; }  // at unit noise
 
   // Derivatives of half the sum of squares; that by the background is left to the caller.
   static Vector gradient(const OutlineModel& model, const ResidualSums& sums);
 
  private:
-  bool invert();
+  void invert();
 
-  Matrix information_;
-  Matrix covariance_;
-  bool ok_ = false;
+  Matrix covariance_;  // the information, until it is inverted
+  bool ok_ = true;
 };
 
 }  // namespace dottrack::image
