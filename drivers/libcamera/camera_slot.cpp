@@ -1,5 +1,7 @@
 #include "drivers/libcamera/camera_slot.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -39,7 +41,9 @@ std::shared_ptr<libcamera::Camera> CameraSlot::camera() const {
 
 Result<void> CameraSlot::start(Time now, bool present) {
   const Duration frame_duration = around_.triggered ? Duration::zero() : around_.period;
-  auto stream = CameraStream::make(camera(), settings_, frame_duration, exchange_);
+  const auto here = camera();
+  if (!here) return fail(fmt::format("camera {} ({}): gone", settings_.name, settings_.id));
+  auto stream = CameraStream::make(here, settings_, frame_duration, exchange_);
   if (!stream) return tl::unexpected(stream.error());
   auto memory = (*stream)->map_memory();
   if (!memory) return tl::unexpected(memory.error());
@@ -71,7 +75,9 @@ void CameraSlot::feed(Time now) {
   const bool hopeless = exchange_.failures_in_row() > kPatientFailures;
   if (hopeless && now < next_feed_of_failed_) return;
   next_feed_of_failed_ = now + kSlowly;
-  while (const auto buffer = exchange_.next_failed()) {
+  for (std::size_t i = 0; i < FrameExchange::kMaxBuffers; ++i) {  // some may fail again meanwhile
+    const auto buffer = exchange_.next_failed();
+    if (!buffer) break;
     stream_->note_failure(*buffer, now);
     stream_->queue(*buffer, now);
   }

@@ -19,19 +19,6 @@ constexpr unsigned kBuffers = 5;  // one in the tick, two waiting for it, two wi
 constexpr Duration kHotplugDelay = std::chrono::milliseconds(200);  // from kernel to libcamera
 constexpr Duration kTellAgainAfter = std::chrono::seconds(1);
 
-// Goes to libcamera's thread and back.
-class Messenger : public libcamera::Object {
- public:
-  void arrive() {}
-};
-
-void round_trip(libcamera::Thread* thread) {
-  auto* const messenger = new Messenger;  // libcamera's thread deletes it
-  messenger->moveToThread(thread);
-  messenger->invokeMethod(&Messenger::arrive, libcamera::ConnectionTypeBlocking);
-  messenger->deleteLater();
-}
-
 template <class T>
 T within_limits(const libcamera::ControlInfoMap& offered, const libcamera::Control<T>& control,
                 T value) {
@@ -52,6 +39,7 @@ CameraStream::CameraStream(std::shared_ptr<libcamera::Camera> camera,
       frame_duration_(frame_duration),
       exchange_(exchange),
       allocator_(camera_),
+      courier_(*camera_),
       wanted_(settings.exposure),
       told_(settings.exposure),
       exposure_ns_(settings.exposure.exposure.count()) {}
@@ -129,9 +117,10 @@ Result<void> CameraStream::start(Time now) {
   return {};
 }
 
-// The order matters: stop() returns when the last request has been completed; and a camera that is
-// gone completes none any more.
+// The order matters: no request may reach a camera that is stopped; stop() returns when the last
+// request has been completed; and a camera that is gone completes none any more.
 CameraStream::~CameraStream() {
+  courier_.round_trip();
   if (connected_) {
     camera_->stop();
     camera_->requestCompleted.disconnect(this);
@@ -143,10 +132,10 @@ CameraStream::~CameraStream() {
 
 // That thread alternates between messages and the kernel's events: between two round trips it has
 // dealt with all events that were there at the first.
-void CameraStream::catch_up() const {
+void CameraStream::catch_up() {
   std::this_thread::sleep_for(kHotplugDelay);
-  round_trip(camera_->thread());
-  round_trip(camera_->thread());
+  courier_.round_trip();
+  courier_.round_trip();
 }
 
 bool CameraStream::has(unsigned control) const {
@@ -164,7 +153,7 @@ void CameraStream::queue(std::size_t buffer, Time now) {
   }
   add_controls(request.controls(), buffer, now);
   exchange_.note_queued();
-  camera_->queueRequest(&request);  // fails only when the camera is gone or stopped
+  courier_.hand_over(request);
 }
 
 void CameraStream::note_failure(std::size_t buffer, Time now) {

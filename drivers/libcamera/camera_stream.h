@@ -11,6 +11,7 @@
 
 #include "drivers/libcamera/frame_exchange.h"
 #include "drivers/libcamera/libcamera_grabber.h"
+#include "drivers/libcamera/request_courier.h"
 
 namespace dottrack::drivers {
 
@@ -42,7 +43,7 @@ class CameraStream {
   void hold_controls(bool hold) { hold_ = hold; }
   bool has_exposure() const;
   // Returns when libcamera knows what the kernel knew at the call; blocks as long as it is busy.
-  void catch_up() const;
+  void catch_up();
   const std::shared_ptr<libcamera::Camera>& camera() const { return camera_; }
 
  private:
@@ -66,6 +67,7 @@ class CameraStream {
   libcamera::Stream* stream_ = nullptr;
   libcamera::FrameBufferAllocator allocator_;
   std::vector<std::unique_ptr<libcamera::Request>> requests_;  // one a buffer, of the same number
+  RequestCourier courier_;
   bool acquired_ = false;
   bool connected_ = false;
 

@@ -53,8 +53,12 @@ Result<void> still_process(Board& board, const std::string& main_process) {
   const auto now = board.service("MainPID");
   if (!now) return tl::unexpected(now.error());
   if (*now == main_process) return {};
-  return fail(
-      fmt::format("the service was started anew: process {} is now {}", main_process, *now));
+  const auto why = board.shell().check(
+      fmt::format("journalctl -b -o cat -n 3 -u {} -g 'FATAL|Main process exited|timeout'",
+                  kService),
+      kCommandPatience);
+  return fail(fmt::format("the service was started anew: process {} is now {}; {}", main_process,
+                          *now, why ? *why : why.error().message));
 }
 
 Finding conclude(std::string what, const Result<std::string>& figures) {
