@@ -1,6 +1,7 @@
 #include "app/core/image/centre_information.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -18,6 +19,7 @@ using Matrix42 = Eigen::Matrix<double, 4, 2>;
 // leave of the difference is wrong by about this times (blur / radius)^2 of the whole; so much is
 // added, and a small dot's slope of light counts for little.
 constexpr double kBlurredLight = 8.0;
+constexpr double kMostCurved = 0.5;
 
 const double kRootPi = std::sqrt(std::numbers::pi);
 
@@ -41,6 +43,12 @@ Matrix2d lower_root(const Matrix2d& m) {
   root(1, 0) = m(1, 0) / root(0, 0);
   root(1, 1) = std::sqrt(m(1, 1) - root(1, 0) * root(1, 0));
   return root;
+}
+
+Matrix2d symmetric(const DerivativeSums& sums, DerivativeSums::Term first) {
+  Matrix2d m;
+  m << sums.of[first], sums.of[first + 1], sums.of[first + 1], sums.of[first + 2];
+  return m;
 }
 
 constexpr double kStep_rad = 2.0 * std::numbers::pi / kNodes;
@@ -90,6 +98,12 @@ struct ThirdIntegrals {
 
 }  // namespace
 
+// Of a slope of the dot's light and one of the background: the second moments of the blurred dot.
+Matrix2d CentreInformation::light_by_slope(const OutlineModel& model) const {
+  return 0.25 * area_ * model.shape.inverse() +
+         area_ * model.blur_px * model.blur_px * Matrix2d::Identity();
+}
+
 // Across an edge of blur s, by distance, the integral of (phi / s)^2 is 1 / (2 sqrt(pi) s), of e
 // phi / s it is 1/2, and e - e^2 has s / sqrt(pi).
 CentreInformation::CentreInformation(const OutlineModel& model, const FitWindow& window) {
@@ -97,8 +111,16 @@ CentreInformation::CentreInformation(const OutlineModel& model, const FitWindow&
   const double c = model.contrast_dn;
   centre_slope_ = c * area_;
   per_scatter_ = window.scatter.inverse();
-  const Matrix2d centre = c * c / (2.0 * kRootPi * model.blur_px) * normal_normal_;
+  const Matrix2d centre = c * c / (2.0 * kRootPi * model.blur_px) *
+                          curved(model.blur_px * model.blur_px) * normal_normal_;
   covariance_ = (centre - centre_slope_ * centre_slope_ * per_scatter_).inverse();
+}
+
+// What a straight edge says too much: with q = blur^2 / radius^2, a disc has
+// sqrt(pi / q) exp(-1 / 2q) I1(1 / 2q) of it, here by its series.
+double CentreInformation::curved(double blur2_px2) const {
+  const double q = std::min(blur2_px2 * std::numbers::pi / area_, kMostCurved);
+  return 1.0 - q * (0.75 + 0.46875 * q);
 }
 
 void CentreInformation::integrate(const OutlineModel& model) {
@@ -130,24 +152,51 @@ CentreVector CentreInformation::step(const CentreVector& g) const {
   return step;
 }
 
+// From sums over the pixels throughout: of a small dot little is left of the information, and that
+// little must not be the difference of two roundings.
+LightSlope CentreInformation::light_slope(const OutlineModel& model, const ResidualSums& sums,
+                                          const DerivativeSums& derivatives,
+                                          const CentreVector& step) const {
+  using Term = DerivativeSums;
+  const double c = model.contrast_dn;
+  const double blur2 = model.blur_px * model.blur_px;
+  const Matrix2d to_centre = c / model.blur_px * model.shape;
+  const Matrix2d slope_slope = light_by_slope(model);
+  const Matrix2d light_centre =
+      symmetric(derivatives, Term::kEwxx) * to_centre - centre_slope_ * slope_slope * per_scatter_;
+  const Matrix2d centre_centre = to_centre * symmetric(derivatives, Term::kWwxx) * to_centre -
+                                 centre_slope_ * centre_slope_ * per_scatter_;
+  const Matrix2d by_light = centre_centre.inverse() * light_centre.transpose();
+  LightSlope light;
+  light.information = symmetric(derivatives, Term::kEexx) -
+                      slope_slope * per_scatter_ * slope_slope - light_centre * by_light;
+  Vector2d left(sums[ResidualSums::kRex], sums[ResidualSums::kRey]);
+  left -= light_centre * step.centre +
+          slope_slope * (step.slope + centre_slope_ * per_scatter_ * step.centre);
+  light.slope_dn = light.information.inverse() * left;
+  light.gain_dn2 = light.slope_dn.dot(left);
+  light.centre_by_slope = by_light - blur2 / c * Matrix2d::Identity();
+  return light;
+}
+
 double CentreInformation::asymmetry(const OutlineModel& model, const ResidualSums& sums,
+                                    const DerivativeSums& derivatives,
                                     const CentreVector& step) const {
   const ThirdIntegrals third(root_);
+  const Matrix2d light = light_by_slope(model);
   const double c = model.contrast_dn;
-  const double s = model.blur_px;
-  const double edge = c * c / (2.0 * kRootPi * s);
-  const Matrix2d light =
-      0.25 * area_ * model.shape.inverse() + area_ * s * s * Matrix2d::Identity();
-  const double blurred = kBlurredLight * s * s * std::numbers::pi / area_;
+  const double edge = c * c / (2.0 * kRootPi * model.blur_px);
+  const double blurred = kBlurredLight * model.blur_px * model.blur_px * std::numbers::pi / area_;
   Matrix42 by_centre;
-  by_centre << edge * third.third_normal, 0.5 * c * area_ * Matrix2d::Identity();
+  by_centre << edge * third.third_normal,
+      0.5 * c * derivatives[DerivativeSums::kEe] * Matrix2d::Identity();
   Matrix42 by_slope;
   by_slope << c * third.third_place, light;
   Matrix4d information;
   information << edge * third.third_third, 0.5 * c * third.third_place,
       0.5 * c * third.third_place.transpose(),
-      (1.0 + blurred) * light - s / kRootPi * third.place_place;
-  const double scale = c / s;
+      symmetric(derivatives, DerivativeSums::kEexx) + blurred * light;
+  const double scale = c / model.blur_px;
   Vector4d left;
   left << scale * sums[ResidualSums::kRw3c], scale * sums[ResidualSums::kRw3s],
       sums[ResidualSums::kRex], sums[ResidualSums::kRey];

@@ -22,6 +22,14 @@ struct CentreVector {
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
 };
 
+// A slope of the dot's own light, in grey levels a pixel: what the residuals say of it.
+struct LightSlope {
+  Eigen::Vector2d slope_dn = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();      // Fisher's, at unit noise
+  Eigen::Matrix2d centre_by_slope = Eigen::Matrix2d::Zero();  // how far it moves the fitted centre
+  double gain_dn2 = 0.0;  // what it takes off the sum of squares
+};
+
 class CentreInformation {
  public:
   CentreInformation(const OutlineModel& model, const FitWindow& window);
@@ -37,11 +45,17 @@ class CentreInformation {
   const Eigen::Matrix2d& covariance() const { return covariance_; }
   // How much the residuals' asymmetry shows of an outline with third harmonics and of a dot with a
   // slope of light of its own: chi-square of 4 degrees of freedom at unit noise, after the step.
+  // `derivatives` are of a model close to this one.
   double asymmetry(const OutlineModel& model, const ResidualSums& sums,
-                   const CentreVector& step) const;
+                   const DerivativeSums& derivatives, const CentreVector& step) const;
+  // The same of that slope alone.
+  LightSlope light_slope(const OutlineModel& model, const ResidualSums& sums,
+                         const DerivativeSums& derivatives, const CentreVector& step) const;
 
  private:
   void integrate(const OutlineModel& model);
+  Eigen::Matrix2d light_by_slope(const OutlineModel& model) const;
+  double curved(double blur2_px2) const;
 
   Eigen::Matrix2d root_;
   double area_ = 0.0;

@@ -210,7 +210,7 @@ class Fitting {
       if (!shape.ok() || !take(step(sums, shape, prior))) return false;
       sum_residuals(pixels_, model_, sums);
       const Step last = step(sums, shape, prior);
-      set_left(sums, last, noise2);
+      set_left(sums, derivatives, last, noise2);
       left_.shape_covariance = shape.covariance().topLeftCorner<3, 3>();
       if (!take(last) || !determined()) return false;
       if (last.gain_dn2 <= kConverged * noise2) break;
@@ -299,7 +299,8 @@ class Fitting {
     model_.shape = (strained * strained.transpose()).inverse();
   }
 
-  void set_left(const ResidualSums& sums, const Step& step, double noise2) {
+  void set_left(const ResidualSums& sums, const DerivativeSums& derivatives, const Step& step,
+                double noise2) {
     left_.pixels = pixels_.count;
     left_.area_px2 = step.information.area_px2();
     left_.length_px = step.information.length_px();
@@ -308,7 +309,8 @@ class Fitting {
     left_.covered_chi2_dn2 = sums[ResidualSums::kRre];
     left_.edge_chi2_dn2 =
         sums[ResidualSums::kRrp] - kEdgeShare * std::min(step.gain_dn2, kMaxGain * noise2);
-    left_.asymmetry_dn2 = step.information.asymmetry(model_, sums, step.centre);
+    left_.asymmetry_dn2 = step.information.asymmetry(model_, sums, derivatives, step.centre);
+    left_.light = step.information.light_slope(model_, sums, derivatives, step.centre);
     left_.centre_covariance = step.information.covariance();
   }
 

@@ -18,6 +18,18 @@ struct ExpectedOutline {
   double angle_rad = 0.0;  // of the major axis from +x towards +y
 };
 
+// A slope of the light on a dot moves its fitted centre. One picture hardly tells the two apart;
+// but the slope is the same for all cameras.
+struct DotLight {
+  Eigen::Vector2d slope_per_px = Eigen::Vector2d::Zero();  // of the dot's contrast, as a part of it
+  Eigen::Matrix2d information_px2 = Eigen::Matrix2d::Zero();      // Fisher's, of that slope
+  Eigen::Matrix2d centre_by_slope_px2 = Eigen::Matrix2d::Zero();  // what moves the centre
+  // The dot was called hidden or merged, and a slope of light would do as well: then the centre has
+  // this covariance once the slope is known.
+  bool explains = false;
+  Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Identity();
+};
+
 struct DotFit {
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  // of the outline ellipse
   // From the noise seen at the dot's edge; wider where there is a flaw.
@@ -31,6 +43,7 @@ struct DotFit {
   double noise_dn = 0.0;       // standard deviation of a pixel at the edge
   // What the model leaves of a pixel, root mean square, in units of the noise expected there.
   double misfit = 0.0;
+  DotLight light;
   DotFlaw flaw = DotFlaw::not_fitted;  // none: the centre may be trusted to its covariance
 };
 

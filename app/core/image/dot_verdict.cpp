@@ -16,6 +16,8 @@ constexpr double kShot_dn = 1.0 / 40.0;   // variance a grey level of signal: 40
 constexpr double kModelPart = 0.01;       // of the contrast: what no model of a dot is better than
 constexpr double kParameters = 7.0;       // that the dot's own pixels determine
 constexpr double kAsymmetryLimit = 18.5;  // of chi-square with 4 degrees: 1 in 1000
+constexpr double kHarmonicsLimit = 13.8;  // with 2 degrees: 1 in 1000
+constexpr double kLightLimit = 13.8;      // the same
 constexpr double kMisfitSigmas = 3.5;
 constexpr double kFaint = 5.0;  // contrast in units of the noise
 constexpr double kBlurReach_px = 1.5;
@@ -88,12 +90,16 @@ double expected_chi2(const LeftOver& left, const DotFit& fit) {
          (left.ring_noise_dn2 + shot / std::max(left.pixels, 1) + model * model);
 }
 
-bool is_misfit(const LeftOver& left, const DotFit& fit) {
+// By light: with a slope of it taken out.
+bool is_misfit(const LeftOver& left, const DotFit& fit, bool by_light) {
+  const double gain = by_light ? left.light.gain_dn2 : 0.0;
   const double freedom = std::max(left.pixels - kParameters, 1.0);
   const double limit = 1.0 + kMisfitSigmas * std::sqrt(2.0 / freedom);
   const double model = kModelPart * fit.contrast_dn;
-  return fit.misfit * fit.misfit > limit ||
-         left.asymmetry_dn2 > kAsymmetryLimit * (fit.noise_dn * fit.noise_dn + model * model);
+  const double noise2 = fit.noise_dn * fit.noise_dn + model * model;
+  return left.chi2_dn2 - gain > limit * expected_chi2(left, fit) ||
+         left.asymmetry_dn2 - gain > (by_light ? kHarmonicsLimit : kAsymmetryLimit) * noise2 ||
+         left.light.gain_dn2 - gain > kLightLimit * noise2;
 }
 
 DotFlaw misfit_flaw(const Region& region, const LeftOver& left) {
@@ -101,17 +107,28 @@ DotFlaw misfit_flaw(const Region& region, const LeftOver& left) {
   return left.covered_chi2_dn2 > 0.5 * left.chi2_dn2 ? DotFlaw::hidden : DotFlaw::merged;
 }
 
-DotFlaw flaw_of(const ImageView& image, const Region& region, const LeftOver& left,
-                const ExpectedOutline* expected, const DotFit& fit) {
-  if (cut_by_border(image, fit)) return DotFlaw::border;
-  if (std::abs(fit.contrast_dn) < kFaint * fit.noise_dn) return DotFlaw::faint;
-  if (is_misfit(left, fit)) return misfit_flaw(region, left);
+DotFlaw outline_flaw(const Region& region, const LeftOver& left, const ExpectedOutline* expected,
+                     const DotFit& fit) {
   if (expected == nullptr) return DotFlaw::none;
   const double off = outline_misfit(*expected, left, fit);
   const bool saturated = region.saturated_px > 0;
   if (std::abs(off) <= (saturated ? kOverexposed : 1.0)) return DotFlaw::none;
   if (saturated) return DotFlaw::saturated;
   return off < 0.0 ? DotFlaw::hidden : DotFlaw::merged;
+}
+
+DotFlaw flaw_of(const ImageView& image, const Region& region, const LeftOver& left,
+                const ExpectedOutline* expected, const DotFit& fit) {
+  if (cut_by_border(image, fit)) return DotFlaw::border;
+  if (std::abs(fit.contrast_dn) < kFaint * fit.noise_dn) return DotFlaw::faint;
+  if (is_misfit(left, fit, false)) return misfit_flaw(region, left);
+  return outline_flaw(region, left, expected, fit);
+}
+
+bool light_explains(const Region& region, const LeftOver& left, const ExpectedOutline* expected,
+                    const DotFit& fit) {
+  return (fit.flaw == DotFlaw::hidden || fit.flaw == DotFlaw::merged) &&
+         !is_misfit(left, fit, true) && outline_flaw(region, left, expected, fit) == DotFlaw::none;
 }
 
 }  // namespace
@@ -129,6 +146,9 @@ void describe(const Vector2d& centre_px, const OutlineModel& model, const LeftOv
   // The noise is itself uncertain; as of a Student's t, that widens the centre's distribution.
   const double freedom = std::max(2.0 * std::sqrt(std::numbers::pi) * kept, 4.0);
   fit.covariance_px2 = noise2 * freedom / (freedom - 2.0) * left.centre_covariance;
+  fit.light.slope_per_px = left.light.slope_dn / fit.contrast_dn;
+  fit.light.information_px2 = fit.contrast_dn * fit.contrast_dn / noise2 * left.light.information;
+  fit.light.centre_by_slope_px2 = fit.contrast_dn * left.light.centre_by_slope;
   fit.misfit = std::sqrt(std::max(left.chi2_dn2, 0.0) / expected_chi2(left, fit));
 }
 
@@ -136,6 +156,8 @@ void judge(const ImageView& image, const Region& region, const LeftOver& left,
            const ExpectedOutline* expected, DotFit& fit) {
   fit.flaw = flaw_of(image, region, left, expected, fit);
   if (fit.flaw == DotFlaw::none || fit.flaw == DotFlaw::faint) return;
+  fit.light.explains = light_explains(region, left, expected, fit);
+  fit.light.covariance_px2 = fit.covariance_px2;
   const double unsure_px = 0.25 * fit.semi_minor_px;
   fit.covariance_px2 += unsure_px * unsure_px * Matrix2d::Identity();
 }

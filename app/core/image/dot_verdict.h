@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "app/core/image/centre_information.h"
 #include "app/core/image/dot_fit.h"
 #include "app/core/image/outline_sums.h"
 
@@ -18,6 +19,7 @@ struct LeftOver {
   double covered_chi2_dn2 = 0.0;  // the part that lies within the outline
   double edge_chi2_dn2 = 0.0;     // weighed with the normal density at the distance to it
   double asymmetry_dn2 = 0.0;     // CentreInformation::asymmetry
+  LightSlope light;
   Eigen::Matrix2d centre_covariance = Eigen::Matrix2d::Zero();  // at unit noise
   Eigen::Matrix3d shape_covariance = Eigen::Matrix3d::Zero();   // of A, at unit noise
 };

@@ -247,8 +247,13 @@ HWY_INLINE void add_failing_edge(const Compared& at, Sums& sums) {
 
 template <class Sums>
 HWY_INLINE void add_derivatives(const Compared& at, Sums& sums) {
-  sums.add(DerivativeSums::kEe, hn::Mul(at.edge.e, at.edge.e));
+  const Vector ee = hn::Mul(at.edge.e, at.edge.e);
+  const Vector eex = hn::Mul(ee, at.x);
+  sums.add(DerivativeSums::kEe, ee);
   sums.add(DerivativeSums::kE, at.edge.e);
+  sums.add(DerivativeSums::kEexx, hn::Mul(eex, at.x));
+  sums.add(DerivativeSums::kEexy, hn::Mul(eex, at.y));
+  sums.add(DerivativeSums::kEeyy, hn::Mul(hn::Mul(ee, at.y), at.y));
 }
 
 template <class Sums>
@@ -257,14 +262,18 @@ HWY_INLINE void add_derivatives_edge(const Compared& at, Sums& sums) {
   const Vector e = at.edge.e;
   const Vector pz = hn::Mul(at.edge.p, at.edge.z);
   const Vector wx = hn::Mul(at.edge.w, at.x);
+  const Vector wy = hn::Mul(at.edge.w, at.y);
   const Vector wxx = hn::Mul(wx, at.x);
   const Vector wxy = hn::Mul(wx, at.y);
-  const Vector wyy = hn::Mul(hn::Mul(at.edge.w, at.y), at.y);
+  const Vector wyy = hn::Mul(wy, at.y);
   sums.add(Term::kWxxxx, hn::Mul(wxx, wxx));
   sums.add(Term::kWxxxy, hn::Mul(wxx, wxy));
   sums.add(Term::kWxxyy, hn::Mul(wxy, wxy));
   sums.add(Term::kWxyyy, hn::Mul(wxy, wyy));
   sums.add(Term::kWyyyy, hn::Mul(wyy, wyy));
+  sums.add(Term::kWwxx, hn::Mul(wx, wx));
+  sums.add(Term::kWwxy, hn::Mul(wx, wy));
+  sums.add(Term::kWwyy, hn::Mul(wy, wy));
   sums.add(Term::kWxx, wxx);
   sums.add(Term::kWxy, wxy);
   sums.add(Term::kWyy, wyy);

@@ -86,6 +86,7 @@ struct DerivativeSums {
     kWxxxx, kWxxxy, kWxxyy, kWxyyy, kWyyyy,
     kWxx, kWxy, kWyy, kEwxx, kEwxy, kEwyy, kPzwxx, kPzwxy, kPzwyy,
     kPzpz, kPze, kPz, kEe, kE,
+    kWwxx, kWwxy, kWwyy, kEexx, kEexy, kEeyy,
     kTerms
   };
   // clang-format on

@@ -51,6 +51,7 @@ void measure(const ImageView& image, const ExpectedDot& expected, SeenDot& seen)
   seen.region.centroid_px = fit.centre_px;
   seen.covariance_px2 = fit.covariance_px2;
   seen.flaw = fit.flaw;
+  seen.light = fit.light;
   if (!seen.bloomed || seen.flaw != core::DotFlaw::none) return;
   const double doubt_px = kBloomedDoubt * seen.region.semi_minor_px;
   seen.covariance_px2 += doubt_px * doubt_px * Eigen::Matrix2d::Identity();
@@ -199,6 +200,7 @@ const FollowResult& Follower::follow(std::span<const core::CameraFrame> frames,
     regions[camera]->clear();
     if (frames[camera].delivered) update(camera, frames[camera].image, *regions[camera]);
   }
+  take_out_uneven_light(*rig_, predicted_, seen_);
   core::Reason reason = locator_.locate(seen_, expected_, predicted_, times_);
   if (locator_.has_pose() && drop_wrong_shapes()) {
     reason = locator_.locate(seen_, expected_, predicted_, times_);

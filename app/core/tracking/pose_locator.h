@@ -9,10 +9,9 @@
 #include "app/core/tick_result.h"
 #include "app/core/tracking/expected_dot.h"
 #include "app/core/tracking/seen_dots.h"
+#include "app/core/tracking/shared_light.h"
 
 namespace dottrack::tracking {
-
-using PlacedDots = std::array<PlacedDot, core::kMaxDots>;
 
 // Triangulates each dot that two or more cameras show; starts from three or more of these (the
 // quaternion method), else from the expected pose; fits the pose to every view of every dot.

@@ -6,6 +6,7 @@
 
 #include "app/core/dot_flaw.h"
 #include "app/core/estimation/sighting.h"
+#include "app/core/image/dot_fit.h"
 #include "app/core/image/region.h"
 #include "app/core/limits.h"
 #include "hal/base/camera_set.h"
@@ -18,6 +19,7 @@ struct SeenDot {
   core::DotFlaw flaw = core::DotFlaw::none;
   image::Region region;  // chosen for the dot; its centroid is the dot's centre
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Identity();  // of that centre
+  image::DotLight light;
   estimation::Sighting sighting;
 };
 

@@ -72,8 +72,7 @@ TEST_F(DotFitTest, RecognisesHalfShadowedDots) {
       count(fit_dot(picture.view(), *region, &expected), ellipse.centre, counts);
     }
     EXPECT_GT(counts.biased, 200);
-    EXPECT_GE(counts.recognised, (diameter < 14.0 ? 0.98 : 0.99) * counts.biased)
-        << diameter << " px: " << counts.biased;
+    EXPECT_GE(counts.recognised, 0.99 * counts.biased) << diameter << " px: " << counts.biased;
   }
 }
 
