@@ -118,6 +118,7 @@ struct TickResult {
   Time capture_time{};  // middle of the exposure; of the tick's frames, their mean
   State state = State::acquiring;
   Reason reason = Reason::no_frames;
+  Relock relock = Relock::none;  // of this tick
   bool has_pose = false;
   Pose pose;  // from the images of this tick alone
   // The part of its covariance that comes from the camera models and the dots' places on the
@@ -125,7 +126,6 @@ struct TickResult {
   Eigen::Matrix<double, 6, 6> systematic = Eigen::Matrix<double, 6, 6>::Zero();
   FilteredPose filtered;  // at the same instant; while coasting without a pose beside it
   double false_lock_probability = 1.0;  // that the lock is a wrong one, at most; with a pose only
-  Relock relock = Relock::none;         // of this tick
   std::uint32_t reset_count = 0;        // acquisitions so far: a new value is a new lock
   std::uint32_t ticks_lost = 0;         // consecutive ticks without a pose
   CameraSet cameras_used;
@@ -133,12 +133,12 @@ struct TickResult {
   std::uint16_t views_used = 0;
   std::uint16_t views_left_out = 0;  // seen in a dot's place, but at odds with the others
   bool rig_disagrees = false;        // more cameras contradict each other than can be left out
+  bool has_candidate = false;
   std::array<DotState, kMaxDots> dots{};
   std::array<CameraTick, kMaxCameras> cameras{};
   AcquisitionCounts acquisition;
-  // The pose of acquisition's best selection in this tick, even if it is held back: the one that
-  // `acquisition.false_lock_probability` speaks of.
-  bool has_candidate = false;
+  // Where has_candidate: the pose of acquisition's best selection in this tick, even if it is held
+  // back; the one that `acquisition.false_lock_probability` speaks of.
   Pose candidate;
 };
 

@@ -52,7 +52,7 @@ Result<void> CameraSlot::start(Time now, bool present) {
   can_be_set_ = stream_->has_exposure();
   state_ = State::running;
   last_heard_ = now;
-  const auto started = stream_->start(now);
+  auto started = stream_->start(now);
   if (!started) leave();
   return started;
 }
