@@ -56,9 +56,9 @@ class PointFilter {
   bool set_camera(std::size_t camera, const core::Camera& seen);
   void draw(std::size_t camera, const estimation::Sightings& sightings);
 
-  CameraSet complex_;  // cameras without a simple model that see something
   alignas(64) Cameras cameras_{};
   std::array<std::uint32_t, kMaxCameras * kMapWords + 1> maps_{};
+  CameraSet complex_;  // cameras without a simple model that see something
 };
 
 }  // namespace dottrack::acquisition

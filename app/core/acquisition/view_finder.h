@@ -52,9 +52,9 @@ class ViewFinder {
   CameraSet seeing() const { return seeing_; }
 
  private:
+  PointFilter filter_;
   std::span<const CameraView> views_;
   std::array<SightingIndex, kMaxCameras> index_;
-  PointFilter filter_;
   std::array<Eigen::Vector3d, kMaxCameras> centres_m_;
   CameraSet seeing_;
 };
