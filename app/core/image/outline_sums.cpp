@@ -29,19 +29,27 @@ HWY_INLINE Vector grey_of(const std::uint8_t* pixels) {
   return hn::ConvertTo(kLanes, hn::PromoteTo(wide, hn::LoadU(bytes, pixels)));
 }
 
+HWY_INLINE void append(Vector x, Vector y, Vector grey, int at, DotPixels& pixels) {
+  hn::StoreU(x, kLanes, pixels.x.data() + at);
+  hn::StoreU(y, kLanes, pixels.y.data() + at);
+  hn::StoreU(grey, kLanes, pixels.grey.data() + at);
+}
+
 bool list(const ImageView& patch, const PatchRows& rows, DotPixels& pixels) {
+  if (rows.inner.places.n > DotPixels::kCapacity) return false;
   const Vector iota = hn::Iota(kLanes, 0);
+  const Vector next = all(kStep);
+  const std::uint8_t* row = patch.data;
   int count = 0;
-  for (int y = 0; y < rows.count; ++y) {
-    const Span span = rows.inner[static_cast<std::size_t>(y)];
-    const int n = span.last - span.first + 1;
-    if (count + n > DotPixels::kCapacity) return false;
-    const std::uint8_t* row = patch.row(y);
+  for (int y = 0; y < rows.count; ++y, row += patch.stride_bytes) {
+    const int start = rows.inner.before[static_cast<std::size_t>(y)] + 1;
+    const int n = rows.inner.after[static_cast<std::size_t>(y)] - start;
+    if (n <= 0) continue;
+    const Vector down = all(y);
+    Vector x = hn::Add(iota, all(start));
     for (int k = 0; k < n; k += kStep) {
-      const auto at = static_cast<std::size_t>(count + k);
-      hn::StoreU(hn::Add(iota, all(span.first + k)), kLanes, pixels.x.data() + at);
-      hn::StoreU(all(y), kLanes, pixels.y.data() + at);
-      hn::StoreU(grey_of(row + span.first + k), kLanes, pixels.grey.data() + at);
+      append(x, down, grey_of(row + start + k), count + k, pixels);
+      x = hn::Add(x, next);
     }
     count += n;
   }

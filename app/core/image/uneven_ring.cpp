@@ -16,7 +16,7 @@ constexpr int kRounds = 3;
 
 // A bit a column. The widest patch has one more: its last column is nobody's.
 using Row = std::uint64_t;
-using Map = std::array<Row, kMaxPatchSide_px>;
+using Map = std::array<Row, kPatchRows_px>;
 constexpr int kColumns = 64;
 
 std::size_t index(int i) {
@@ -27,13 +27,13 @@ Row up_to(int end) {
   return end >= kColumns ? ~Row{0} : (Row{1} << static_cast<unsigned>(std::max(end, 0))) - 1;
 }
 Row bits_of(const Spans& spans, int y) {
-  return up_to(spans[index(y)].last + 1) & ~up_to(spans[index(y)].first);
+  return up_to(spans.after[index(y)]) & ~up_to(spans.before[index(y)] + 1);
 }
 
 // Of the row's columns from first on, those that are off the plane by more than its limit.
 Row off_plane(const std::uint8_t* pixels, int y, int first, int end, const IntegerPlane& plane) {
-  constexpr std::int64_t kUnits = 65536;  // of the plane, a grey level
-  std::int64_t expected = plane.at_origin + plane.per_y * y + plane.per_x * first;
+  constexpr int kUnits = 65536;  // of the plane, a grey level
+  std::int32_t expected = plane.at_origin + plane.per_y * y + plane.per_x * first;
   Row row = 0;
   for (int x = first; x < end; ++x) {
     const bool far = std::abs(kUnits * pixels[x] - expected) > plane.limit;
@@ -48,11 +48,10 @@ Map off_plane(const ImageView& patch, const PatchRows& rows, const Spans& lit,
               const IntegerPlane& plane) {
   Map map;
   for (int y = 0; y < rows.count; ++y) {
-    const int first = rows.outer[index(y)].first;
-    const int end = std::min(rows.outer[index(y)].last + 1, kColumns);
-    const int lit_first = std::clamp<int>(lit[index(y)].first, first, std::max(first, end));
-    const int lit_end =
-        std::clamp<int>(lit[index(y)].last + 1, lit_first, std::max(lit_first, end));
+    const int first = rows.outer.before[index(y)] + 1;
+    const int end = std::min<int>(rows.outer.after[index(y)], kColumns);
+    const int lit_first = std::clamp<int>(lit.before[index(y)] + 1, first, std::max(first, end));
+    const int lit_end = std::clamp<int>(lit.after[index(y)], lit_first, std::max(lit_first, end));
     map[index(y)] = off_plane(patch.row(y), y, first, lit_first, plane) |
                     off_plane(patch.row(y), y, lit_end, end, plane);
   }
@@ -94,7 +93,7 @@ void list_others(const ImageView& patch, const PatchRows& rows, const Map& stran
   pixels.count = 0;
   for (int y = 0; y < rows.count; ++y) {
     const std::uint8_t* row = patch.row(y);
-    for (int x = rows.inner[index(y)].first; x <= rows.inner[index(y)].last; ++x) {
+    for (int x = rows.inner.before[index(y)] + 1; x < rows.inner.after[index(y)]; ++x) {
       const bool stranger =
           x < kColumns && ((strangers[index(y)] >> static_cast<unsigned>(x)) & 1U) != 0;
       if (!stranger) pixels.add(x, y, row[x]);
@@ -105,17 +104,15 @@ void list_others(const ImageView& patch, const PatchRows& rows, const Map& stran
 
 }  // namespace
 
-void find_own_ground(const ImageView& patch, const PatchRows& rows, const Spans& nearest,
+void find_own_ground(const ImageView& patch, const PatchRows& nearest, const RingMask& mask,
                      const GreySums& whole, Plane& plane) {
-  PatchRows near = rows;
-  near.outer = nearest;
   RingLevel level;
-  if (!find_level(patch, near, level)) return;
+  if (!find_level(patch, nearest, level)) return;
   Plane ground{level.middle_dn, 0.0, 0.0, level.sigma_dn};
   std::int64_t kept_before = 0;
   for (int round = 0; round < kRounds; ++round) {
     GreySums kept = whole;
-    drop_outliers(patch, rows, rounded(ground, noise_limit_dn(ground)), kept);
+    drop_outliers(patch, mask, rounded(ground, noise_limit_dn(ground)), kept);
     if (!fit(kept, ground)) return;
     if (kept.n == kept_before) break;
     kept_before = kept.n;
