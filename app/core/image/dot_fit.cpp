@@ -171,7 +171,7 @@ class Fitting {
     if (!(std::abs(model_.contrast_dn) >= kMinContrast_dn) || !(area > 0.0)) return false;
     const double scale = std::clamp(area / seen, 0.5, 2.0);
     model_.shape =
-        (scale * ellipse_matrix(region_.semi_major_px, region_.semi_minor_px, region_.angle_rad))
+        (scale * ellipse_matrix(region_.semi_major_px, region_.semi_minor_px, cosine_, sine_))
             .inverse();
     return true;
   }
@@ -298,7 +298,8 @@ class Fitting {
     Matrix2d strain = root.transpose() * change * root;
     strain *= std::min(1.0, kMaxStrain / std::max(strain.norm(), 1e-9));
     const Matrix2d strained = root * (Matrix2d::Identity() - 0.5 * strain);
-    model_.shape = (strained * strained.transpose()).inverse();
+    left_.per_shape = strained * strained.transpose();
+    model_.shape = left_.per_shape.inverse();
   }
 
   void set_left(const ResidualSums& sums, const Step& step, double noise2) {

@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 
 #include "app/core/image/ring_sums.h"
@@ -26,11 +25,15 @@ struct OutlineModel {
 };
 
 // A^-1 of an ellipse.
-inline Eigen::Matrix2d ellipse_matrix(double major_px, double minor_px, double angle_rad) {
-  const Eigen::Vector2d along(std::cos(angle_rad), std::sin(angle_rad));
-  const Eigen::Vector2d across(-along.y(), along.x());
-  return major_px * major_px * along * along.transpose() +
-         minor_px * minor_px * across * across.transpose();
+inline Eigen::Matrix2d ellipse_matrix(double major_px, double minor_px, double cosine,
+                                      double sine) {
+  const double major2 = major_px * major_px;
+  const double minor2 = minor_px * minor_px;
+  const double xy = cosine * sine * (major2 - minor2);
+  Eigen::Matrix2d matrix;
+  matrix << cosine * cosine * major2 + sine * sine * minor2, xy, xy,
+      sine * sine * major2 + cosine * cosine * minor2;
+  return matrix;
 }
 
 // A dot's pixels, one after the other, in the patch's coordinates.
