@@ -19,40 +19,9 @@ constexpr Lanes kLanes;
 constexpr int kStep = static_cast<int>(MaxLanes(Lanes()));
 constexpr int kBlock = DotPixels::kBlock;
 static_assert(kSumLanes == static_cast<std::size_t>(kBlock));
+
 HWY_INLINE Vector all(double value) {
   return hn::Set(kLanes, static_cast<float>(value));
-}
-HWY_INLINE Vector grey_of(const std::uint8_t* pixels) {
-  const hn::Rebind<std::int32_t, Lanes> wide;
-  const hn::Rebind<std::uint8_t, Lanes> bytes;
-  return hn::ConvertTo(kLanes, hn::PromoteTo(wide, hn::LoadU(bytes, pixels)));
-}
-HWY_INLINE void append(Vector x, Vector y, Vector grey, int at, DotPixels& pixels) {
-  hn::StoreU(x, kLanes, pixels.x.data() + at);
-  hn::StoreU(y, kLanes, pixels.y.data() + at);
-  hn::StoreU(grey, kLanes, pixels.grey.data() + at);
-}
-bool list(const ImageView& patch, const PatchRows& rows, DotPixels& pixels) {
-  if (rows.inner.places.n > DotPixels::kCapacity) return false;
-  const Vector iota = hn::Iota(kLanes, 0);
-  const Vector next = all(kStep);
-  const std::uint8_t* row = patch.data;
-  int count = 0;
-  for (int y = 0; y < rows.count; ++y, row += patch.stride_bytes) {
-    const int start = rows.inner.before[static_cast<std::size_t>(y)] + 1;
-    const int n = rows.inner.after[static_cast<std::size_t>(y)] - start;
-    if (n <= 0) continue;
-    const Vector down = all(y);
-    Vector x = hn::Add(iota, all(start));
-    for (int k = 0; k < n; k += kStep) {
-      append(x, down, grey_of(row + start + k), count + k, pixels);
-      x = hn::Add(x, next);
-    }
-    count += n;
-  }
-  pixels.count = count;
-  pixels.close();
-  return true;
 }
 
 // Up to |z| = kCut, where the normal distribution is cut off, scaled to end at 0 and 1. Density:
@@ -378,13 +347,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace dottrack::image {
 
-HWY_EXPORT(list);
 HWY_EXPORT(sum_all);
 HWY_EXPORT(sum_both);
-
-bool list_pixels(const ImageView& patch, const PatchRows& rows, DotPixels& pixels) {
-  return HWY_DYNAMIC_DISPATCH(list)(patch, rows, pixels);
-}
 
 void sum_residuals(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals) {
   HWY_DYNAMIC_DISPATCH(sum_all)(pixels, model, residuals);

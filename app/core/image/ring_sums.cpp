@@ -1,8 +1,8 @@
 #include "app/core/image/ring_sums.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
+#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "app/core/image/ring_sums.cpp"
@@ -130,59 +130,146 @@ struct Lines {
   std::array<std::int16_t, kPatchRows_px> down;
 };
 
-// All bits of the ring's pixels that are off the plane, row by row of a strip of columns.
-class Far {
+// All bits of the pixels that are off the plane, row by row of a strip of columns.
+class Off {
  public:
-  HWY_INLINE Far(const ImageView& patch, const RingMask& mask, const Lines& lines,
-                 std::int32_t limit, int column)
+  HWY_INLINE Off(const ImageView& patch, const Lines& lines, std::int32_t limit, int column)
       : patch_(patch),
-        mask_(mask.of.data() + mask_at(0, column)),
         pixels_(patch.data + column),
         across_(hn::LoadU(kLanes, lines.across.data() + column)),
         down_(lines.down.data()),
         limit_(all(std::min(limit >> kLaneShift, 0x7FFF))) {}
 
   HWY_INLINE Vector at(std::size_t y) const {
-    const Vector ring = hn::LoadU(kLanes, mask_ + y * static_cast<std::size_t>(kStep));
     const std::uint8_t* row = pixels_ + static_cast<std::ptrdiff_t>(y) * patch_.stride_bytes;
     const Vector expected = hn::SaturatedAdd(across_, hn::Set(kLanes, down_[y]));
     const Vector off = hn::Abs(hn::SaturatedSub(hn::ShiftLeft<6>(load(row)), expected));
-    return hn::And(ring, hn::VecFromMask(kLanes, hn::Gt(off, limit_)));
+    return hn::VecFromMask(kLanes, hn::Gt(off, limit_));
   }
 
  private:
   const ImageView& patch_;
-  const std::int16_t* mask_;
   const std::uint8_t* pixels_;
   Vector across_;
   const std::int16_t* down_;
   Vector limit_;
 };
 
-HWY_INLINE bool any(Vector bits) {
-  return !hn::AllFalse(kLanes, hn::MaskFromVec(bits));
-}
-
-void drop(const ImageView& patch, const RingMask& mask, const IntegerPlane& plane, GreySums& ring) {
+HWY_INLINE Lines lines_of(const IntegerPlane& plane, const ImageView& patch) {
   Lines lines;
   set_line(0, plane.per_x, patch.width_px, lines.across);
   set_line(plane.at_origin, plane.per_y, patch.height_px, lines.down);
+  return lines;
+}
+
+// Sums over some pixels of a strip: all bits of their lanes are set.
+class StripSums {
+ public:
+  HWY_INLINE StripSums() : count_(hn::Zero(kLanes)), rows_(count_), values_(count_) {}
+
+  HWY_INLINE void add(Vector which, Vector grey, Vector row) {
+    const Vector value = hn::And(which, grey);
+    const Vector down = hn::And(which, row);
+    count_ = hn::Sub(count_, which);
+    rows_ = hn::Add(rows_, down);
+    values_ = hn::Add(values_, value);
+    yy_.add(down, row);
+    vy_.add(value, row);
+    vv_.add(value, value);
+  }
+
+  HWY_INLINE void take_from(GreySums& sums, int column) const {
+    const Vector x = hn::Iota(kLanes, static_cast<std::int16_t>(column));
+    const Vector one = all(1);
+    const Vector across = hn::Mul(count_, x);
+    sums.n -= total_of(count_, one);
+    sums.x -= total_of(across, one);
+    sums.y -= total_of(rows_, one);
+    sums.xx -= total_of(across, x);
+    sums.xy -= total_of(rows_, x);
+    sums.yy -= yy_.total();
+    sums.v -= total_of(values_, one);
+    sums.vx -= total_of(values_, x);
+    sums.vy -= vy_.total();
+    sums.vv -= vv_.total();
+  }
+
+ private:
+  static HWY_INLINE std::int64_t total_of(Vector a, Vector b) {
+    ProductSum sum;
+    sum.add(a, b);
+    return sum.total();
+  }
+
+  Vector count_;
+  Vector rows_;
+  Vector values_;
+  ProductSum yy_, vy_, vv_;
+};
+
+void drop(const ImageView& patch, const RingMask& mask, const IntegerPlane& plane, GreySums& ring) {
+  const Lines lines = lines_of(plane, patch);
   const auto rows = static_cast<std::size_t>(patch.height_px);
   for (int k = 0; k < patch.width_px; k += kStep) {
-    const Far far(patch, mask, lines, plane.limit, k);
-    Vector of_strip = hn::Zero(kLanes);
-    for (std::size_t y = 0; y < rows; ++y) of_strip = hn::Or(of_strip, far.at(y));
-    if (!any(of_strip)) continue;
+    const Off off(patch, lines, plane.limit, k);
+    const auto far_at = [&](std::size_t y) {
+      return hn::And(off.at(y), hn::LoadU(kLanes, mask.of.data() + mask_at(y, k)));
+    };
+    Vector any = hn::Zero(kLanes);
+    for (std::size_t y = 0; y < rows; ++y) any = hn::Or(any, far_at(y));
+    if (hn::AllFalse(kLanes, hn::MaskFromVec(any))) continue;
+    StripSums sums;
+    Vector row = hn::Zero(kLanes);
     for (std::size_t y = 0; y < rows; ++y) {
-      const Vector of_row = far.at(y);
-      if (!any(of_row)) continue;
-      const std::uint8_t* pixels = patch.row(static_cast<int>(y));
-      for (std::uint64_t bits = bits_of(kLanes, hn::MaskFromVec(of_row)); bits != 0;
-           bits &= bits - 1) {
-        const int column = k + std::countr_zero(bits);
-        subtract(ring, column, static_cast<int>(y), pixels[column]);
-      }
+      sums.add(far_at(y), load(patch.row(static_cast<int>(y)) + k), row);
+      row = hn::Add(row, all(1));
     }
+    sums.take_from(ring, k);
+  }
+}
+
+void find_off(const ImageView& patch, const IntegerPlane& plane, PixelMap& map) {
+  const Lines lines = lines_of(plane, patch);
+  const auto rows = static_cast<std::size_t>(patch.height_px);
+  std::fill_n(map.begin(), rows, 0);
+  for (int k = 0; k < std::min(patch.width_px, kMapColumns); k += kStep) {
+    const Off off(patch, lines, plane.limit, k);
+    for (std::size_t y = 0; y < rows; ++y) {
+      map[y] |= bits_of(kLanes, hn::MaskFromVec(off.at(y))) << static_cast<unsigned>(k);
+    }
+  }
+}
+
+constexpr std::array<std::int16_t, 16> kLaneBits{
+    1,       1 << 1,  1 << 2,  1 << 3,
+    1 << 4,  1 << 5,  1 << 6,  1 << 7,
+    1 << 8,  1 << 9,  1 << 10, 1 << 11,
+    1 << 12, 1 << 13, 1 << 14, std::numeric_limits<std::int16_t>::min()};
+
+// All bits of the lanes that a map's row holds, from a column on.
+HWY_INLINE Vector lanes_of(std::uint64_t row, int column, Vector lane_bits) {
+  const auto bits = static_cast<std::int16_t>(row >> static_cast<unsigned>(column) & 0xFFFFU);
+  const Vector held = hn::And(hn::Set(kLanes, bits), lane_bits);
+  return hn::VecFromMask(kLanes, hn::Eq(held, lane_bits));
+}
+
+void take_away(const ImageView& patch, const PixelMap& map, GreySums& from) {
+  const Vector lane_bits = hn::LoadU(kLanes, kLaneBits.data());
+  const auto rows = static_cast<std::size_t>(patch.height_px);
+  std::uint64_t columns = 0;
+  for (std::size_t y = 0; y < rows; ++y) columns |= map[y];
+  for (int k = 0; k < std::min(patch.width_px, kMapColumns); k += kStep) {
+    if ((columns >> static_cast<unsigned>(k) & ((1U << static_cast<unsigned>(kStep)) - 1)) == 0) {
+      continue;
+    }
+    StripSums sums;
+    Vector row = hn::Zero(kLanes);
+    for (std::size_t y = 0; y < rows; ++y) {
+      const Vector grey = load(patch.row(static_cast<int>(y)) + k);
+      sums.add(lanes_of(map[y], k, lane_bits), grey, row);
+      row = hn::Add(row, all(1));
+    }
+    sums.take_from(from, k);
   }
 }
 
@@ -194,6 +281,8 @@ HWY_AFTER_NAMESPACE();
 namespace dottrack::image {
 HWY_EXPORT(sum_values);
 HWY_EXPORT(drop);
+HWY_EXPORT(find_off);
+HWY_EXPORT(take_away);
 
 PatchSums sum_patch(const ImageView& patch, const PatchRows& rows, RingMask& mask) {
   PatchSums sums;
@@ -210,6 +299,14 @@ PatchSums sum_patch(const ImageView& patch, const PatchRows& rows, RingMask& mas
 void drop_outliers(const ImageView& patch, const RingMask& mask, const IntegerPlane& plane,
                    GreySums& ring) {
   HWY_DYNAMIC_DISPATCH(drop)(patch, mask, plane, ring);
+}
+
+void find_off_plane(const ImageView& patch, const IntegerPlane& plane, PixelMap& map) {
+  HWY_DYNAMIC_DISPATCH(find_off)(patch, plane, map);
+}
+
+void subtract(const ImageView& patch, const PixelMap& map, GreySums& sums) {
+  HWY_DYNAMIC_DISPATCH(take_away)(patch, map, sums);
 }
 
 }  // namespace dottrack::image

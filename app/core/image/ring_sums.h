@@ -19,20 +19,6 @@ struct GreySums : PlaceSums {
   std::int64_t vv = 0;  // of the ring only
 };
 
-// Takes a pixel out.
-inline void subtract(GreySums& sums, int x, int y, int v) {
-  sums.n -= 1;
-  sums.x -= x;
-  sums.y -= y;
-  sums.xx -= x * x;
-  sums.xy -= x * y;
-  sums.yy -= y * y;
-  sums.v -= v;
-  sums.vx -= v * x;
-  sums.vy -= v * y;
-  sums.vv -= v * v;
-}
-
 struct PatchSums {
   GreySums dot;
   GreySums ring;
@@ -41,8 +27,6 @@ struct PatchSums {
 // Which pixels of a patch are the ring's, all bits of a lane or none, in strips of columns: what
 // the sums work out on their way.
 struct RingMask {
-  static constexpr std::size_t kStrip_px = 16;
-
   std::array<std::int16_t, kPatchRows_px * kPatchColumns_px> of;
 };
 
@@ -66,5 +50,16 @@ struct IntegerPlane {
 // much is known to a part in 64 of a grey level.
 void drop_outliers(const ImageView& patch, const RingMask& mask, const IntegerPlane& plane,
                    GreySums& ring);
+
+// Pixels of a patch, a bit a column, row by row. The widest patch has one more column: that is in
+// no map.
+inline constexpr int kMapColumns = 64;
+using PixelMap = std::array<std::uint64_t, kPatchRows_px>;
+
+// Those of a patch that are off the plane by more than the limit, likewise.
+void find_off_plane(const ImageView& patch, const IntegerPlane& plane, PixelMap& map);
+
+// Takes a map's pixels out of sums.
+void subtract(const ImageView& patch, const PixelMap& map, GreySums& sums);
 
 }  // namespace dottrack::image
