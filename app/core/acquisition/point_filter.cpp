@@ -188,7 +188,7 @@ void PointFilter::draw(std::size_t camera, const estimation::Sightings& sighting
     const auto first = static_cast<int>((y - kReach_px) * cells_per_px);
     const auto last = static_cast<int>((y + kReach_px) * cells_per_px);
     const std::uint64_t bits = ((std::uint64_t{2} << (to - from)) - 1U) << (from % 32);
-    std::uint32_t* word = map + first * pitch + from / 32;
+    std::uint32_t* word = map + std::ptrdiff_t{first} * pitch + from / 32;
     for (int row = first; row <= last; ++row, word += pitch) {
       std::uint64_t two;
       std::memcpy(&two, word, sizeof(two));

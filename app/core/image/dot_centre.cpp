@@ -14,9 +14,9 @@ constexpr double kGrow_px = 1.25;      // what blur puts outside the region
 constexpr double kRingWidth_px = 4.0;  // of the background's ring around that
 constexpr double kOutlierSigmas = 2.5;
 
-bool fit_background(const ImageView& patch, const PatchRows& rows, GreySums& ring, Plane& plane) {
+bool fit_background(const ImageView& patch, const RingMask& mask, GreySums& ring, Plane& plane) {
   if (!fit(ring, plane)) return false;
-  drop_outliers(patch, rows, rounded(plane, kOutlierSigmas * plane.sigma + 1.0), ring);
+  drop_outliers(patch, mask, rounded(plane, kOutlierSigmas * plane.sigma + 1.0), ring);
   return fit(ring, plane);
 }
 
@@ -51,10 +51,11 @@ Eigen::Vector2d dot_centre(const ImageView& image, const Region& region) {
   set_spans(outer, middle, patch.rows(), patch.columns(), rows.outer);
   set_spans(inner, middle, patch.rows(), patch.columns(), rows.inner);
   const Pixels pixels(image, patch);
-  PatchSums sums = sum_patch(pixels.view(), rows);
+  RingMask mask;
+  PatchSums sums = sum_patch(pixels.view(), rows, mask);
   Plane background;
   Vector2d centre;
-  if (!fit_background(pixels.view(), rows, sums.ring, background) ||
+  if (!fit_background(pixels.view(), mask, sums.ring, background) ||
       !centroid(sums.dot, background, centre) ||
       (centre - middle).norm() > 0.5 * region.semi_minor_px) {
     return region.centroid_px;

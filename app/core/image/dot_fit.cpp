@@ -59,15 +59,17 @@ DotFit unfitted(const Region& region) {
 
 class Fitting {
  public:
-  Fitting(const ImageView& image, const Region& region) : image_(image), region_(region) {}
+  Fitting(const ImageView& image, const Region& region)
+      : image_(image),
+        region_(region),
+        cosine_(std::cos(region.angle_rad)),
+        sine_(std::sin(region.angle_rad)) {}
 
   bool run() {
-    const double cosine = std::cos(region_.angle_rad);
-    const double sine = std::sin(region_.angle_rad);
     const double outer_px =
         std::min(4.0 + 0.8 * region_.semi_major_px, kMaxReach_px - region_.semi_major_px);
-    const GrownEllipse inner(region_, cosine, sine, kGrow_px);
-    const GrownEllipse outer(region_, cosine, sine, outer_px);
+    const GrownEllipse inner(region_, cosine_, sine_, kGrow_px);
+    const GrownEllipse outer(region_, cosine_, sine_, outer_px);
     const Patch patch = patch_around(image_, region_.centroid_px, outer);
     if (patch.columns() <= 0 || patch.rows() <= 0) return false;
     corner_ = Vector2d(patch.x_min, patch.y_min);
@@ -89,13 +91,14 @@ class Fitting {
 
  private:
   bool sum_up(const ImageView& patch, const PatchRows& rows) {
-    sums_ = sum_patch(patch, rows);
+    RingMask mask;
+    sums_ = sum_patch(patch, rows, mask);
     if (!fit(sums_.ring, plane_)) return false;
     const GreySums whole = sums_.ring;
-    drop_outliers(patch, rows, rounded(plane_, noise_limit_dn(plane_)), sums_.ring);
+    drop_outliers(patch, mask, rounded(plane_, noise_limit_dn(plane_)), sums_.ring);
     if (sums_.ring.n != whole.n && !fit(sums_.ring, plane_)) return false;
     return list_pixels(patch, rows, pixels_) &&
-           (!is_uneven(whole) || take_own_ground(patch, rows, whole));
+           (!is_uneven(whole) || take_own_ground(patch, rows, mask, whole));
   }
 
   // Of the middle to the ring's plane.
@@ -113,16 +116,15 @@ class Fitting {
            plane_.sigma > kUnevenRing * seen_contrast_dn();
   }
 
-  bool take_own_ground(const ImageView& patch, const PatchRows& rows, const GreySums& whole) {
-    const double cosine = std::cos(region_.angle_rad);
-    const double sine = std::sin(region_.angle_rad);
+  bool take_own_ground(const ImageView& patch, const PatchRows& rows, const RingMask& mask,
+                       const GreySums& whole) {
     const auto spans_of = [&](double grow_px) {
       Spans spans;
-      const GrownEllipse ellipse(region_, cosine, sine, grow_px);
+      const GrownEllipse ellipse(region_, cosine_, sine_, grow_px);
       set_spans(ellipse, region_.centroid_px - corner_, rows.count, patch.width_px, spans);
       return spans;
     };
-    find_own_ground(patch, rows, spans_of(kNearest_px), whole, plane_);
+    find_own_ground(patch, {rows.count, spans_of(kNearest_px), rows.inner}, mask, whole, plane_);
     sums_.ring = whole;
     drop_strangers(patch, rows,
                    {spans_of(kLit_px), spans_of(kEdge_px),
@@ -169,7 +171,7 @@ class Fitting {
     if (!(std::abs(model_.contrast_dn) >= kMinContrast_dn) || !(area > 0.0)) return false;
     const double scale = std::clamp(area / seen, 0.5, 2.0);
     model_.shape =
-        (scale * ellipse_matrix(region_.semi_major_px, region_.semi_minor_px, region_.angle_rad))
+        (scale * ellipse_matrix(region_.semi_major_px, region_.semi_minor_px, cosine_, sine_))
             .inverse();
     return true;
   }
@@ -296,7 +298,8 @@ class Fitting {
     Matrix2d strain = root.transpose() * change * root;
     strain *= std::min(1.0, kMaxStrain / std::max(strain.norm(), 1e-9));
     const Matrix2d strained = root * (Matrix2d::Identity() - 0.5 * strain);
-    model_.shape = (strained * strained.transpose()).inverse();
+    left_.per_shape = strained * strained.transpose();
+    model_.shape = left_.per_shape.inverse();
   }
 
   void set_left(const ResidualSums& sums, const DerivativeSums& derivatives, const Step& step,
@@ -316,6 +319,8 @@ class Fitting {
 
   const ImageView& image_;
   const Region& region_;
+  double cosine_;  // of its angle
+  double sine_;
   Vector2d corner_;
   PatchSums sums_;
   Plane plane_;

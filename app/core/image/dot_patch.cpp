@@ -9,7 +9,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr std::int64_t kMinRing_px = 12;  // pixels that a plane can be trusted with
-constexpr double kFar_dn = 1e6;           // no grey value is
 
 }  // namespace
 
@@ -18,26 +17,6 @@ Patch patch_around(const ImageView& image, const Vector2d& centre, const GrownEl
           std::max(static_cast<int>(std::floor(centre.y() - outer.reach_y)), 0),
           std::min(static_cast<int>(std::ceil(centre.x() + outer.reach_x)), image.width_px - 1),
           std::min(static_cast<int>(std::ceil(centre.y() + outer.reach_y)), image.height_px - 1)};
-}
-
-// No call, no branch: the compiler makes it several rows at a time.
-void set_spans(const GrownEllipse& ellipse, const Vector2d& centre, int rows, int columns,
-               std::array<Span, kMaxPatchSide_px>& spans) {
-  constexpr int kBias = 256;  // rounding towards zero is rounding down
-  const double per_a = 1.0 / ellipse.a;
-  for (int row = 0; row < rows; ++row) {
-    const double y = row - centre.y();
-    const double inside = ellipse.a - ellipse.determinant * y * y;
-    const double half = std::sqrt(std::max(inside, 0.0)) * per_a;
-    const double middle = centre.x() - ellipse.b * per_a * y;
-    const int enters = kBias - static_cast<int>(kBias - (middle - half));
-    const int leaves = static_cast<int>(middle + half + kBias) - kBias;
-    const int first = std::min(std::max(enters, 0), columns);
-    const int last = std::min(leaves, columns - 1);
-    const int end = inside >= 0.0 ? std::max(last, first - 1) : first - 1;
-    spans[static_cast<std::size_t>(row)] = {static_cast<std::int16_t>(first),
-                                            static_cast<std::int16_t>(end)};
-  }
 }
 
 Pixels::Pixels(const ImageView& image, const Patch& patch) {
@@ -75,10 +54,11 @@ bool fit(const GreySums& sums, Plane& plane) {
 }
 
 IntegerPlane rounded(const Plane& plane, double limit_dn) {
-  const auto units = [](double dn) {
-    return static_cast<std::int64_t>(std::clamp(dn, -kFar_dn, kFar_dn) / kPlaneUnit_dn);
+  const auto units = [](double dn, double most_dn) {
+    return static_cast<std::int32_t>(std::clamp(dn, -most_dn, most_dn) / kPlaneUnit_dn);
   };
-  return {units(plane.at_origin), units(plane.per_x), units(plane.per_y), units(limit_dn)};
+  return {units(plane.at_origin, kFar_dn), units(plane.per_x, kSteep_dn),
+          units(plane.per_y, kSteep_dn), units(limit_dn, kFar_dn)};
 }
 
 }  // namespace dottrack::image

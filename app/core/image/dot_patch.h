@@ -3,12 +3,9 @@
 // values fitted to some of them.
 
 #include <Eigen/Core>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
-#include "app/core/image/region.h"
 #include "app/core/image/ring_sums.h"
 #include "hal/base/image_view.h"
 
@@ -16,27 +13,6 @@ namespace dottrack::image {
 
 inline constexpr double kMaxReach_px = 31.0;  // of an ellipse on a patch
 static_assert(2 * (kMaxReach_px + 1.0) < kMaxPatchSide_px);
-
-// The region's ellipse grown by some pixels: a x^2 + 2 b x y + c y^2 <= 1 about its centre.
-struct GrownEllipse {
-  GrownEllipse(const Region& region, double cosine, double sine, double grow_px) {
-    const double major = region.semi_major_px + grow_px;
-    const double minor = region.semi_minor_px + grow_px;
-    const double m = 1.0 / (major * major);
-    const double n = 1.0 / (minor * minor);
-    a = cosine * cosine * m + sine * sine * n;
-    b = cosine * sine * (m - n);
-    determinant = m * n;
-    reach_x = std::sqrt(cosine * cosine * major * major + sine * sine * minor * minor);
-    reach_y = std::sqrt(sine * sine * major * major + cosine * cosine * minor * minor);
-  }
-
-  double a;
-  double b;
-  double determinant;  // a c - b^2
-  double reach_x;      // of its bounding box
-  double reach_y;
-};
 
 // The part of the image that holds the ring.
 struct Patch {
@@ -51,10 +27,6 @@ struct Patch {
 
 Patch patch_around(const ImageView& image, const Eigen::Vector2d& centre,
                    const GrownEllipse& outer);
-
-// Where every row of the patch enters and leaves the ellipse.
-void set_spans(const GrownEllipse& ellipse, const Eigen::Vector2d& centre, int rows, int columns,
-               std::array<Span, kMaxPatchSide_px>& spans);
 
 // A patch whose every row can be read for kPatchColumns_px: in the image, or copied out of it where
 // that ends too early.

@@ -33,38 +33,36 @@ constexpr double kEdgeLost = 5.0 * 0.326 + 0.217 + 0.15;
 void set_axes(const Matrix2d& shape, DotFit& fit) {
   const double mean = 0.5 * shape.trace();
   const double difference = 0.5 * (shape(0, 0) - shape(1, 1));
-  const double half = std::hypot(difference, shape(0, 1));
+  const double half = std::sqrt(difference * difference + shape(0, 1) * shape(0, 1));
   fit.semi_major_px = 1.0 / std::sqrt(std::max(mean - half, 1e-6));
   fit.semi_minor_px = 1.0 / std::sqrt(mean + half);
   // The major axis is where the form is smallest.
   fit.angle_rad = half > 0.0 ? 0.5 * std::atan2(-2.0 * shape(0, 1), -2.0 * difference) : 0.0;
 }
 
-// Half the width across a direction.
-double half_width(double major, double minor, double turned) {
-  return std::hypot(major * std::cos(turned), minor * std::sin(turned));
+// Variance of the fitted half width along a unit vector v at unit noise, times its square: w =
+// sqrt(v^T A^-1 v), and with k = A^-1 v, dw = -k^T dA k / 2w.
+double width_variance(const LeftOver& left, const Vector2d& k) {
+  const Eigen::Vector3d by(k.x() * k.x(), 2.0 * k.x() * k.y(), k.y() * k.y());
+  return std::max(by.dot(left.shape_covariance * by), 0.0) / 4.0;
 }
 
-// Variance of the fitted half width along a unit vector at unit noise: w = sqrt(v^T A^-1 v), and
-// with k = A^-1 v, dw = -k^T dA k / 2w.
-double width_variance(const LeftOver& left, const Matrix2d& per_shape, const Vector2d& v) {
-  const Vector2d k = per_shape * v;
-  const Eigen::Vector3d by(k.x() * k.x(), 2.0 * k.x() * k.y(), k.y() * k.y());
-  return std::max(by.dot(left.shape_covariance * by), 0.0) / (4.0 * v.dot(k));
-}
+const std::array<Vector2d, 4> kDirections{
+    Vector2d{1.0, 0.0}, Vector2d{std::numbers::sqrt2 / 2.0, std::numbers::sqrt2 / 2.0},
+    Vector2d{0.0, 1.0}, Vector2d{-std::numbers::sqrt2 / 2.0, std::numbers::sqrt2 / 2.0}};
 
 // The largest difference in width from what was expected, in units of what is allowed; negative
 // when the dot is smaller there.
 double outline_misfit(const ExpectedOutline& expected, const LeftOver& left, const DotFit& fit) {
-  const Matrix2d per_shape = ellipse_matrix(fit.semi_major_px, fit.semi_minor_px, fit.angle_rad);
+  const Matrix2d wanted_matrix =
+      ellipse_matrix(expected.semi_major_px, expected.semi_minor_px, std::cos(expected.angle_rad),
+                     std::sin(expected.angle_rad));
   double worst = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    const double angle = i * std::numbers::pi / 4;
-    const Vector2d v(std::cos(angle), std::sin(angle));
-    const double wanted =
-        half_width(expected.semi_major_px, expected.semi_minor_px, angle - expected.angle_rad);
-    const double shown = std::sqrt(v.dot(per_shape * v));
-    const double sigma = fit.noise_dn * std::sqrt(width_variance(left, per_shape, v));
+  for (const Vector2d& v : kDirections) {
+    const Vector2d k = left.per_shape * v;
+    const double wanted = std::sqrt(v.dot(wanted_matrix * v));
+    const double shown = std::sqrt(v.dot(k));
+    const double sigma = fit.noise_dn * std::sqrt(width_variance(left, k)) / shown;
     const double off =
         (shown - wanted) / (kOutlineSigmas * sigma + kOutlinePart * wanted + kOutline_px);
     if (std::abs(off) > std::abs(worst)) worst = off;
@@ -72,11 +70,9 @@ double outline_misfit(const ExpectedOutline& expected, const LeftOver& left, con
   return worst;
 }
 
-bool cut_by_border(const ImageView& image, const DotFit& fit) {
-  const double x = half_width(fit.semi_major_px, fit.semi_minor_px, fit.angle_rad) + kBlurReach_px;
-  const double y =
-      half_width(fit.semi_major_px, fit.semi_minor_px, fit.angle_rad - std::numbers::pi / 2) +
-      kBlurReach_px;
+bool cut_by_border(const ImageView& image, const LeftOver& left, const DotFit& fit) {
+  const double x = std::sqrt(left.per_shape(0, 0)) + kBlurReach_px;
+  const double y = std::sqrt(left.per_shape(1, 1)) + kBlurReach_px;
   return fit.centre_px.x() - x < -0.5 || fit.centre_px.y() - y < -0.5 ||
          fit.centre_px.x() + x > image.width_px - 0.5 ||
          fit.centre_px.y() + y > image.height_px - 0.5;
@@ -119,7 +115,7 @@ DotFlaw outline_flaw(const Region& region, const LeftOver& left, const ExpectedO
 
 DotFlaw flaw_of(const ImageView& image, const Region& region, const LeftOver& left,
                 const ExpectedOutline* expected, const DotFit& fit) {
-  if (cut_by_border(image, fit)) return DotFlaw::border;
+  if (cut_by_border(image, left, fit)) return DotFlaw::border;
   if (std::abs(fit.contrast_dn) < kFaint * fit.noise_dn) return DotFlaw::faint;
   if (is_misfit(left, fit, false)) return misfit_flaw(region, left);
   return outline_flaw(region, left, expected, fit);

@@ -11,14 +11,15 @@ namespace dottrack::image {
 
 // What a fitted model leaves unexplained.
 struct LeftOver {
-  int pixels = 0;                 // of the dot and its blurred edge
-  double area_px2 = 0.0;          // of the outline
-  double length_px = 0.0;         // of the outline
-  double ring_noise_dn2 = 0.0;    // variance of the background
-  double chi2_dn2 = 0.0;          // sum of squares
-  double covered_chi2_dn2 = 0.0;  // the part that lies within the outline
-  double edge_chi2_dn2 = 0.0;     // weighed with the normal density at the distance to it
-  double asymmetry_dn2 = 0.0;     // CentreInformation::asymmetry
+  int pixels = 0;                                           // of the dot and its blurred edge
+  double area_px2 = 0.0;                                    // of the outline
+  double length_px = 0.0;                                   // of the outline
+  Eigen::Matrix2d per_shape = Eigen::Matrix2d::Identity();  // A^-1: half widths, squared
+  double ring_noise_dn2 = 0.0;                              // variance of the background
+  double chi2_dn2 = 0.0;                                    // sum of squares
+  double covered_chi2_dn2 = 0.0;                            // the part that lies within the outline
+  double edge_chi2_dn2 = 0.0;  // weighed with the normal density at the distance to it
+  double asymmetry_dn2 = 0.0;  // CentreInformation::asymmetry
   LightSlope light;
   Eigen::Matrix2d centre_covariance = Eigen::Matrix2d::Zero();  // at unit noise
   Eigen::Matrix3d shape_covariance = Eigen::Matrix3d::Zero();   // of A, at unit noise

@@ -8,70 +8,54 @@
 // After foreach_target.h, by its rules.
 #include <hwy/highway.h>
 
+#include "app/core/image/lane_totals-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace dottrack::image {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
 using Lanes = hn::CappedTag<float, DotPixels::kBlock>;
 using Vector = hn::Vec<Lanes>;
 constexpr Lanes kLanes;
 constexpr int kStep = static_cast<int>(MaxLanes(Lanes()));
 constexpr int kBlock = DotPixels::kBlock;
+static_assert(kSumLanes == static_cast<std::size_t>(kBlock));
 
 HWY_INLINE Vector all(double value) {
   return hn::Set(kLanes, static_cast<float>(value));
 }
 
-HWY_INLINE Vector grey_of(const std::uint8_t* pixels) {
-  const hn::Rebind<std::int32_t, Lanes> wide;
-  const hn::Rebind<std::uint8_t, Lanes> bytes;
-  return hn::ConvertTo(kLanes, hn::PromoteTo(wide, hn::LoadU(bytes, pixels)));
-}
-
-bool list(const ImageView& patch, const PatchRows& rows, DotPixels& pixels) {
-  const Vector iota = hn::Iota(kLanes, 0);
-  int count = 0;
-  for (int y = 0; y < rows.count; ++y) {
-    const Span span = rows.inner[static_cast<std::size_t>(y)];
-    const int n = span.last - span.first + 1;
-    if (count + n > DotPixels::kCapacity) return false;
-    const std::uint8_t* row = patch.row(y);
-    for (int k = 0; k < n; k += kStep) {
-      const auto at = static_cast<std::size_t>(count + k);
-      hn::StoreU(hn::Add(iota, all(span.first + k)), kLanes, pixels.x.data() + at);
-      hn::StoreU(all(y), kLanes, pixels.y.data() + at);
-      hn::StoreU(grey_of(row + span.first + k), kLanes, pixels.grey.data() + at);
-    }
-    count += n;
-  }
-  pixels.count = count;
-  pixels.close();
-  return true;
-}
-
-// Up to |z| = 3, where the normal distribution is cut off: c0 + c1 u + ... to a part in 1e5. By
-// halves, which wait less for each other than one term after the other.
-HWY_INLINE Vector polynomial(Vector u, const std::array<double, 8>& c) {
-  const Vector u2 = hn::Mul(u, u);
-  const auto pair = [&](std::size_t i) { return hn::Add(hn::Mul(all(c[i + 1]), u), all(c[i])); };
-  const Vector low = hn::Add(hn::Mul(pair(2), u2), pair(0));
-  const Vector high = hn::Add(hn::Mul(pair(6), u2), pair(4));
-  return hn::Add(hn::Mul(high, hn::Mul(u2, u2)), low);
-}
+// Up to |z| = kCut, where the normal distribution is cut off, scaled to end at 0 and 1. Density:
+// (kCut^2 - u) (c0 + c1 u + ...) with u = z^2, to 1.5e-4 and 0 at the end. Distribution: 1/2 + z
+// (c0 + c1 u + ...), to 4e-5. By halves, which wait less for each other than one term after the
+// other.
 constexpr double kCut = 3.0;
-constexpr std::array<double, 8> kDensity{
-    0.4000143343979335,    -0.19989851011803203,   0.049733726524141056,  -0.008083353488503389,
-    0.0009236040676652996, -7.234359202077163e-05, 3.461036615202008e-06, -7.515042188186805e-08};
-// Its integral over z, divided by z.
-constexpr std::array<double, 8> kDistribution{
-    0.4000143343979335,     -0.06663283670601068,    0.009946745304828211,   -0.0011547647840719126,
-    0.00010262267418503329, -6.5766901837065124e-06, 2.6623358576476984e-07, -5.01002812545787e-09};
+constexpr std::array<double, 5> kDensity{0.044430453037494308, -0.017116088516842362,
+                                         0.0033649602068658306, -0.00036752271209737245,
+                                         1.7844346881829664e-05};
+constexpr std::array<double, 6> kDistribution{0.3998475676541523,     -0.066074289196162109,
+                                              0.0094107179529879653,  -0.00093105264069910166,
+                                              5.5706351321884743e-05, -1.4825877421502016e-06};
 
-// How much of a pixel is covered; |z| is at most kCut.
-HWY_INLINE Vector covered(Vector z, Vector z2) {
-  return hn::Add(all(0.5), hn::Mul(z, polynomial(z2, kDistribution)));
+HWY_INLINE Vector linear(Vector u, double c0, double c1) {
+  return hn::Add(hn::Mul(all(c1), u), all(c0));
 }
+
+// How much of a pixel is covered, and the density there; |z| is at most kCut.
+struct Normal {
+  HWY_INLINE explicit Normal(Vector z) {
+    const Vector u = hn::Mul(z, z);
+    const Vector u2 = hn::Mul(u, u);
+    const auto& d = kDistribution;
+    const Vector high = hn::Add(linear(u, d[2], d[3]), hn::Mul(linear(u, d[4], d[5]), u2));
+    const Vector e_per_z = hn::Add(linear(u, d[0], d[1]), hn::Mul(high, u2));
+    e = hn::Add(all(0.5), hn::Mul(z, e_per_z));
+    const auto& c = kDensity;
+    const Vector tail = hn::Add(linear(u, c[2], c[3]), hn::Mul(all(c[4]), u2));
+    p = hn::Mul(hn::Sub(all(kCut * kCut), u), hn::Add(linear(u, c[0], c[1]), hn::Mul(tail, u2)));
+  }
+
+  Vector e, p;
+};
 
 struct LaneModel {
   HWY_INLINE explicit LaneModel(const OutlineModel& model)
@@ -87,8 +71,8 @@ struct LaneModel {
         background(all(model.background_dn)),
         per_x(all(model.slope_dn.x())),
         per_y(all(model.slope_dn.y())),
-        e_outside(covered(all(-kCut), hn::Mul(all(kCut), all(kCut)))),
-        e_inside(covered(all(kCut), hn::Mul(all(kCut), all(kCut)))) {}
+        e_outside(Normal(all(-kCut)).e),
+        e_inside(Normal(all(kCut)).e) {}
 
   Vector x, y, xx, xy, yy, trace, blur2, per_blur, contrast, background, per_x, per_y;
   Vector e_outside, e_inside;
@@ -117,10 +101,10 @@ HWY_INLINE Place place_at(const LaneModel& model, Vector x, Vector y) {
   const Vector g2_off = hn::Add(g2, hn::Mul(model.trace, all(0.5e-4)));
   const Vector q_off = hn::Add(q, tiny);
   const Vector per_h2 = hn::Div(g2_off, q_off);
-  const Vector h = hn::Sqrt(hn::Div(q_off, g2_off));
-  const Vector m = hn::Sqrt(hn::Add(q, hn::Mul(model.blur2, hn::Sub(model.trace, per_h2))));
-  const Vector z = hn::Mul(hn::Sub(h, hn::Mul(h, m)), model.per_blur);
-  return {x, y, z, hn::Div(h, m)};
+  const Vector m2 = hn::Add(q, hn::Mul(model.blur2, hn::Sub(model.trace, per_h2)));
+  const Vector h_per_m = hn::Div(all(1.0), hn::Sqrt(hn::Mul(per_h2, m2)));
+  const Vector in_blurs = hn::Mul(h_per_m, model.per_blur);
+  return {x, y, hn::Mul(in_blurs, hn::Sub(hn::Sqrt(m2), m2)), h_per_m};
 }
 
 // The places of some blocks. They are worked out before anything is summed: then many roots and
@@ -146,9 +130,9 @@ class Places {
   Place of_[kBlocks];
 };
 
-// Of some pixels against the outline. Where none is on the blurred edge, p and w are nothing.
+// Of some pixels against the outline. Where none is on the blurred edge, p, pz and w are nothing.
 struct Edge {
-  Vector e, p, z, w;
+  Vector e, p, pz, w;
   bool any;
 };
 
@@ -161,9 +145,8 @@ HWY_INLINE Edge edge_at(const LaneModel& model, const Place& place) {
     return {e, none, none, none, false};
   }
   const Vector cut = hn::Min(hn::Max(z, all(-kCut)), all(kCut));
-  const Vector z2 = hn::Mul(cut, cut);
-  const Vector p = hn::IfThenElseZero(near, polynomial(z2, kDensity));
-  return {covered(cut, z2), p, cut, hn::Mul(p, place.h_per_m), true};
+  const Normal normal(cut);
+  return {normal.e, normal.p, hn::Mul(normal.p, cut), hn::Mul(normal.p, place.h_per_m), true};
 }
 
 template <std::size_t kTerms>
@@ -173,7 +156,7 @@ class LaneSums {
     for (Vector& sum : of_) sum = hn::Zero(kLanes);
   }
   HWY_INLINE void add(std::size_t term, Vector value) { of_[term] = hn::Add(of_[term], value); }
-  HWY_INLINE void store(int first, std::array<std::array<float, kBlock>, kTerms>& to) const {
+  HWY_INLINE void store(int first, SumLanes<kTerms>& to) const {
     for (std::size_t i = 0; i < kTerms; ++i) hn::StoreU(of_[i], kLanes, to[i].data() + first);
   }
 
@@ -188,18 +171,15 @@ struct Compared {
 };
 
 HWY_INLINE Compared compare(const DotPixels& pixels, const LaneModel& model, const Place& place,
-                            int i) {
-  const auto at = static_cast<std::size_t>(i);
-  const Vector end = hn::Set(kLanes, static_cast<float>(pixels.count));
-  const auto valid = hn::Lt(hn::Iota(kLanes, static_cast<float>(i)), end);
+                            Vector valid, int i) {
   const Vector x = place.x;
   const Vector y = place.y;
   const Edge edge = edge_at(model, place);
   const Vector plane =
       hn::Add(model.background, hn::Add(hn::Mul(model.per_x, x), hn::Mul(model.per_y, y)));
   const Vector expected = hn::Add(plane, hn::Mul(model.contrast, edge.e));
-  const Vector grey = hn::LoadU(kLanes, pixels.grey.data() + at);
-  return {x, y, hn::IfThenElseZero(valid, hn::Sub(grey, expected)), edge};
+  const Vector grey = hn::LoadU(kLanes, pixels.grey.data() + i);
+  return {x, y, hn::And(valid, hn::Sub(grey, expected)), edge};
 }
 
 template <class Sums>
@@ -220,7 +200,7 @@ HWY_INLINE void add_common_edge(const Compared& at, Sums& sums) {
   sums.add(ResidualSums::kRwxx, hn::Mul(rwx, at.x));
   sums.add(ResidualSums::kRwxy, hn::Mul(rwx, at.y));
   sums.add(ResidualSums::kRwyy, hn::Mul(rwy, at.y));
-  sums.add(ResidualSums::kRpz, hn::Mul(at.r, hn::Mul(at.edge.p, at.edge.z)));
+  sums.add(ResidualSums::kRpz, hn::Mul(at.r, at.edge.pz));
 }
 
 template <class Sums>
@@ -235,13 +215,11 @@ HWY_INLINE void add_failing(const Compared& at, Sums& sums) {
 template <class Sums>
 HWY_INLINE void add_failing_edge(const Compared& at, Sums& sums) {
   const Vector rw = hn::Mul(at.r, at.edge.w);
-  const Vector xx = hn::Mul(at.x, at.x);
-  const Vector yy = hn::Mul(at.y, at.y);
-  const Vector xy = hn::Mul(at.x, at.y);
-  const Vector difference = hn::Mul(rw, hn::Sub(xx, yy));
-  const Vector twice = hn::Mul(rw, hn::Add(xy, xy));
-  sums.add(ResidualSums::kRw3c, hn::Sub(hn::Mul(difference, at.x), hn::Mul(twice, at.y)));
-  sums.add(ResidualSums::kRw3s, hn::Add(hn::Mul(difference, at.y), hn::Mul(twice, at.x)));
+  const Vector xx = hn::Mul(hn::Mul(rw, at.x), at.x);
+  const Vector yy = hn::Mul(hn::Mul(rw, at.y), at.y);
+  const Vector three = all(3.0);
+  sums.add(ResidualSums::kRw3c, hn::Mul(hn::Sub(xx, hn::Mul(three, yy)), at.x));
+  sums.add(ResidualSums::kRw3s, hn::Mul(hn::Sub(hn::Mul(three, xx), yy), at.y));
   sums.add(ResidualSums::kRrp, hn::Mul(at.r, hn::Mul(at.r, at.edge.p)));
 }
 
@@ -260,7 +238,7 @@ template <class Sums>
 HWY_INLINE void add_derivatives_edge(const Compared& at, Sums& sums) {
   using Term = DerivativeSums;
   const Vector e = at.edge.e;
-  const Vector pz = hn::Mul(at.edge.p, at.edge.z);
+  const Vector pz = at.edge.pz;
   const Vector wx = hn::Mul(at.edge.w, at.x);
   const Vector wy = hn::Mul(at.edge.w, at.y);
   const Vector wxx = hn::Mul(wx, at.x);
@@ -288,27 +266,34 @@ HWY_INLINE void add_derivatives_edge(const Compared& at, Sums& sums) {
   sums.add(Term::kPz, pz);
 }
 
-// Lane i of every block goes to sum i, however many lanes are worked on at a time.
-template <std::size_t kTerms>
-HWY_INLINE void total(const std::array<std::array<float, kBlock>, kTerms>& lanes, double* sums) {
-  for (std::size_t i = 0; i < kTerms; ++i) {
-    const auto& l = lanes[i];
-    sums[i] =
-        static_cast<double>(((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7])));
-  }
-}
-
 // Calls add with every vector of pixels that begins at lane `part` of its block.
 template <class Add>
 HWY_INLINE void compare_all(const DotPixels& pixels, const LaneModel& model, int part, Add add) {
   Places places;
-  const int last = pixels.count + part;
+  const int count = pixels.count;
+  const int last = count + part;
+  // All of a block's lanes count, or those of the last block.
+  std::array<std::array<float, kBlock>, 2> valid;
+  const Vector zero = hn::Zero(kLanes);
+  const int last_block = part + (count - 1) / kBlock * kBlock;
+  const Vector end = hn::Set(kLanes, static_cast<float>(count));
+  hn::StoreU(hn::VecFromMask(kLanes, hn::Eq(zero, zero)), kLanes, valid[0].data());
+  hn::StoreU(hn::VecFromMask(kLanes, hn::Lt(hn::Iota(kLanes, static_cast<float>(last_block)), end)),
+             kLanes, valid[1].data());
   for (int first = part; first < last; first += Places::kBlocks * kBlock) {
-    const int end = std::min(first + Places::kBlocks * kBlock, last);
-    places.set(pixels, model, first, end);
+    const int end_of_some = std::min(first + Places::kBlocks * kBlock, last);
+    places.set(pixels, model, first, end_of_some);
     int block = 0;
-    for (int i = first; i < end; i += kBlock) add(compare(pixels, model, places[block++], i));
+    for (int i = first; i < end_of_some; i += kBlock) {
+      const Vector which = hn::LoadU(kLanes, valid[i == last_block ? 1 : 0].data());
+      add(compare(pixels, model, places[block++], which, i));
+    }
   }
+}
+
+template <std::size_t kTerms>
+HWY_INLINE void close(SumLanes<kTerms>& lanes) {
+  for (std::size_t i = kTerms; i < lanes.size(); ++i) lanes[i].fill(0.0F);
 }
 
 struct AllSums {
@@ -324,13 +309,14 @@ struct AllSums {
 
 void sum_all(const DotPixels& pixels, const OutlineModel& of, ResidualSums& residuals) {
   const LaneModel model(of);
-  std::array<std::array<float, kBlock>, ResidualSums::kTerms> lanes;
+  SumLanes<ResidualSums::kTerms> lanes;
+  close<ResidualSums::kTerms>(lanes);
   for (int part = 0; part < kBlock; part += kStep) {
     LaneSums<ResidualSums::kTerms> sums;
     compare_all(pixels, model, part, AllSums{sums});
     sums.store(part, lanes);
   }
-  total(lanes, residuals.of.data());
+  total<ResidualSums::kTerms>(lanes, residuals.of.data());
 }
 
 struct BothSums {
@@ -348,8 +334,10 @@ struct BothSums {
 void sum_both(const DotPixels& pixels, const OutlineModel& of, ResidualSums& residuals,
               DerivativeSums& derivatives) {
   const LaneModel model(of);
-  std::array<std::array<float, kBlock>, ResidualSums::kCommon> lanes;
-  std::array<std::array<float, kBlock>, DerivativeSums::kTerms> derivative_lanes;
+  SumLanes<ResidualSums::kCommon> lanes;
+  SumLanes<DerivativeSums::kTerms> derivative_lanes;
+  close<ResidualSums::kCommon>(lanes);
+  close<DerivativeSums::kTerms>(derivative_lanes);
   for (int part = 0; part < kBlock; part += kStep) {
     LaneSums<ResidualSums::kCommon> sums;
     LaneSums<DerivativeSums::kTerms> derivative_sums;
@@ -357,8 +345,8 @@ void sum_both(const DotPixels& pixels, const OutlineModel& of, ResidualSums& res
     sums.store(part, lanes);
     derivative_sums.store(part, derivative_lanes);
   }
-  total(lanes, residuals.of.data());
-  total(derivative_lanes, derivatives.of.data());
+  total<ResidualSums::kCommon>(lanes, residuals.of.data());
+  total<DerivativeSums::kTerms>(derivative_lanes, derivatives.of.data());
 }
 
 }  // namespace HWY_NAMESPACE
@@ -368,13 +356,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace dottrack::image {
 
-HWY_EXPORT(list);
 HWY_EXPORT(sum_all);
 HWY_EXPORT(sum_both);
-
-bool list_pixels(const ImageView& patch, const PatchRows& rows, DotPixels& pixels) {
-  return HWY_DYNAMIC_DISPATCH(list)(patch, rows, pixels);
-}
 
 void sum_residuals(const DotPixels& pixels, const OutlineModel& model, ResidualSums& residuals) {
   HWY_DYNAMIC_DISPATCH(sum_all)(pixels, model, residuals);

@@ -3,13 +3,10 @@
 // ways in which that model can give.
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 
-#include "app/core/image/ring_sums.h"
-#include "hal/base/image_view.h"
+#include "app/core/image/dot_pixels.h"
 
 namespace dottrack::image {
 
@@ -26,40 +23,16 @@ struct OutlineModel {
 };
 
 // A^-1 of an ellipse.
-inline Eigen::Matrix2d ellipse_matrix(double major_px, double minor_px, double angle_rad) {
-  const Eigen::Vector2d along(std::cos(angle_rad), std::sin(angle_rad));
-  const Eigen::Vector2d across(-along.y(), along.x());
-  return major_px * major_px * along * along.transpose() +
-         minor_px * minor_px * across * across.transpose();
+inline Eigen::Matrix2d ellipse_matrix(double major_px, double minor_px, double cosine,
+                                      double sine) {
+  const double major2 = major_px * major_px;
+  const double minor2 = minor_px * minor_px;
+  const double xy = cosine * sine * (major2 - minor2);
+  Eigen::Matrix2d matrix;
+  matrix << cosine * cosine * major2 + sine * sine * minor2, xy, xy,
+      sine * sine * major2 + cosine * cosine * minor2;
+  return matrix;
 }
-
-// A dot's pixels, one after the other, in the patch's coordinates.
-struct DotPixels {
-  static constexpr int kCapacity = 2368;
-  static constexpr int kBlock = 8;  // that many are worked on at a time
-
-  int count = 0;
-  std::array<float, kCapacity + kBlock> x;
-  std::array<float, kCapacity + kBlock> y;
-  std::array<float, kCapacity + kBlock> grey;
-
-  void add(int at_x, int at_y, int of_grey) {
-    const auto at = static_cast<std::size_t>(count++);
-    x[at] = static_cast<float>(at_x);
-    y[at] = static_cast<float>(at_y);
-    grey[at] = static_cast<float>(of_grey);
-  }
-  // After the last pixel: what is read behind it is far from the dot.
-  void close() {
-    const auto end = static_cast<std::ptrdiff_t>(count);
-    std::fill_n(x.begin() + end, kBlock, 1e4F);
-    std::fill_n(y.begin() + end, kBlock, 0.0F);
-    std::fill_n(grey.begin() + end, kBlock, 0.0F);
-  }
-};
-
-// The pixels of the rows' inner spans. False when there is no room for them.
-bool list_pixels(const ImageView& patch, const PatchRows& rows, DotPixels& pixels);
 
 // Sums over the pixels of the residual r = grey - model. u: place from the centre; e: how much of
 // a pixel the dot covers; p: the standard normal density at z, the distance from the outline in

@@ -19,26 +19,30 @@ struct Histogram {
   int darkest = kGreys - 1;
   int brightest = 0;
 
-  void add(const std::uint8_t* pixels, int first, int last) {
-    for (int x = first; x <= last; ++x) {
+  // Pixels of columns x with before < x < after.
+  void add(const std::uint8_t* pixels, int before, int after) {
+    for (int x = before + 1; x < after; ++x) {
       ++of[pixels[x]];
       darkest = std::min<int>(darkest, pixels[x]);
       brightest = std::max<int>(brightest, pixels[x]);
     }
-    count += std::max(last - first + 1, 0);
+    count += std::max(after - before - 1, 0);
   }
 };
 
 Histogram histogram_of(const ImageView& patch, const PatchRows& rows) {
   Histogram histogram;
   for (int y = 0; y < rows.count; ++y) {
-    const Span outer = rows.outer[static_cast<std::size_t>(y)];
-    const Span inner = rows.inner[static_cast<std::size_t>(y)];
-    if (inner.last < inner.first) {
-      histogram.add(patch.row(y), outer.first, outer.last);
+    const auto row = static_cast<std::size_t>(y);
+    const int before = rows.outer.before[row];
+    const int after = rows.outer.after[row];
+    const int dot_before = rows.inner.before[row];
+    const int dot_after = rows.inner.after[row];
+    if (dot_after <= dot_before + 1) {
+      histogram.add(patch.row(y), before, after);
     } else {
-      histogram.add(patch.row(y), outer.first, inner.first - 1);
-      histogram.add(patch.row(y), inner.last + 1, outer.last);
+      histogram.add(patch.row(y), before, dot_before + 1);
+      histogram.add(patch.row(y), dot_after - 1, after);
     }
   }
   return histogram;

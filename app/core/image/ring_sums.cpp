@@ -1,8 +1,8 @@
 #include "app/core/image/ring_sums.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
+#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "app/core/image/ring_sums.cpp"
@@ -51,81 +51,225 @@ class ProductSum {
   hn::Vec<Wide> odd_;
 };
 
-// The lanes of columns x that the span holds.
-HWY_INLINE hn::Mask<Lanes> in_span(Vector x, Span span) {
-  return hn::And(hn::Gt(x, all(span.first - 1)), hn::Lt(x, all(span.last + 1)));
+// The lanes of columns x that a row's span holds.
+HWY_INLINE Vector in_span(Vector x, const Spans& spans, std::size_t row) {
+  const auto after_it = hn::Gt(x, hn::Set(kLanes, spans.before[row]));
+  const auto before_it = hn::Lt(x, hn::Set(kLanes, spans.after[row]));
+  return hn::And(hn::VecFromMask(kLanes, after_it), hn::VecFromMask(kLanes, before_it));
 }
 
-void sum_values(const ImageView& patch, const PatchRows& rows, PatchSums& sums) {
-  ProductSum dot_v, dot_vx, dot_vy, ring_v, ring_vx, ring_vy, ring_vv;
-  const Vector iota = hn::Iota(kLanes, 0);
+HWY_INLINE std::size_t mask_at(std::size_t row, int column) {
+  return static_cast<std::size_t>(column) * kPatchRows_px + row * static_cast<std::size_t>(kStep);
+}
+
+// A column's values have room in a lane: one strip of columns after the other.
+static_assert(kMaxPatchSide_px * 255 < (1 << 15));
+void sum_values(const ImageView& patch, const PatchRows& rows, RingMask& mask, PatchSums& sums) {
+  ProductSum dot_v, dot_vx, dot_vy, both_v, both_vx, both_vy, ring_vv;
   const Vector one = all(1);
-  for (int y = 0; y < rows.count; ++y) {
-    const Span outer = rows.outer[static_cast<std::size_t>(y)];
-    const Span inner = rows.inner[static_cast<std::size_t>(y)];
-    const std::uint8_t* pixels = patch.row(y);
-    const Vector row = all(y);
-    for (int k = outer.first; k <= outer.last; k += kStep) {
-      const Vector x = hn::Add(iota, all(k));
-      const Vector value = hn::IfThenElseZero(in_span(x, outer), load(pixels + k));
-      const auto inside = in_span(x, inner);
-      const Vector dot = hn::IfThenElseZero(inside, value);
-      const Vector ring = hn::IfThenZeroElse(inside, value);
-      dot_v.add(dot, one);
-      dot_vx.add(dot, x);
+  const auto count = static_cast<std::size_t>(rows.count);
+  for (int k = 0; k < patch.width_px; k += kStep) {
+    const Vector x = hn::Iota(kLanes, static_cast<std::int16_t>(k));
+    Vector row = hn::Zero(kLanes);
+    Vector dot_column = row;
+    Vector both_column = row;
+    const std::uint8_t* pixels = patch.data + k;
+    for (std::size_t y = 0; y < count; ++y, pixels += patch.stride_bytes) {
+      const Vector inner = in_span(x, rows.inner, y);
+      const Vector outer = in_span(x, rows.outer, y);
+      const Vector value = load(pixels);
+      const Vector both = hn::And(value, outer);
+      const Vector dot = hn::And(value, inner);
+      const Vector ring = hn::AndNot(inner, both);
+      hn::StoreU(hn::AndNot(inner, outer), kLanes, mask.of.data() + mask_at(y, k));
+      dot_column = hn::Add(dot_column, dot);
+      both_column = hn::Add(both_column, both);
       dot_vy.add(dot, row);
-      ring_v.add(ring, one);
-      ring_vx.add(ring, x);
-      ring_vy.add(ring, row);
+      both_vy.add(both, row);
       ring_vv.add(ring, ring);
+      row = hn::Add(row, one);
     }
+    dot_v.add(dot_column, one);
+    dot_vx.add(dot_column, x);
+    both_v.add(both_column, one);
+    both_vx.add(both_column, x);
   }
   sums.dot.v = dot_v.total();
   sums.dot.vx = dot_vx.total();
   sums.dot.vy = dot_vy.total();
-  sums.ring.v = ring_v.total();
-  sums.ring.vx = ring_vx.total();
-  sums.ring.vy = ring_vy.total();
+  sums.ring.v = both_v.total() - sums.dot.v;
+  sums.ring.vx = both_vx.total() - sums.dot.vx;
+  sums.ring.vy = both_vy.total() - sums.dot.vy;
   sums.ring.vv = ring_vv.total();
 }
 
 // Grey levels in the 16 bits of a lane, 64 units each: what no pixel can be still has room.
-constexpr std::int64_t kUnitsPerLaneUnit = 65536 / 64;
+constexpr int kLaneShift = 10;
+using Integers = hn::RepartitionToWide<Lanes>;
+using HalfLanes = hn::Rebind<std::int16_t, Integers>;
+constexpr std::size_t kHalf = MaxLanes(Integers());
 
-HWY_INLINE std::int16_t lane_units(std::int64_t units) {
-  return static_cast<std::int16_t>(
-      std::clamp<std::int64_t>(units / kUnitsPerLaneUnit, -0x7FFF, 0x7FFF));
+// start + per i for i from 0 on, in those units.
+template <std::size_t kSize>
+HWY_INLINE void set_line(std::int32_t start, std::int32_t per, int size,
+                         std::array<std::int16_t, kSize>& line) {
+  const Integers integers;
+  static_assert(kSize % kHalf == 0);
+  const auto step = hn::Set(integers, per * static_cast<std::int32_t>(kHalf));
+  auto at =
+      hn::Add(hn::Set(integers, start), hn::Mul(hn::Set(integers, per), hn::Iota(integers, 0)));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(size); i += kHalf) {
+    hn::StoreU(hn::DemoteTo(HalfLanes(), hn::ShiftRight<kLaneShift>(at)), HalfLanes(),
+               line.data() + i);
+    at = hn::Add(at, step);
+  }
 }
 
-void drop(const ImageView& patch, const PatchRows& rows, const IntegerPlane& plane,
-          GreySums& ring) {
-  std::array<std::int16_t, kPatchColumns_px> across{};
-  for (std::size_t x = 0; x < static_cast<std::size_t>(patch.width_px); ++x) {
-    across[x] = lane_units(plane.per_x * static_cast<std::int64_t>(x));
+struct Lines {
+  std::array<std::int16_t, kPatchColumns_px> across;
+  std::array<std::int16_t, kPatchRows_px> down;
+};
+
+// All bits of the pixels that are off the plane, row by row of a strip of columns.
+class Off {
+ public:
+  HWY_INLINE Off(const ImageView& patch, const Lines& lines, std::int32_t limit, int column)
+      : patch_(patch),
+        pixels_(patch.data + column),
+        across_(hn::LoadU(kLanes, lines.across.data() + column)),
+        down_(lines.down.data()),
+        limit_(all(std::min(limit >> kLaneShift, 0x7FFF))) {}
+
+  HWY_INLINE Vector at(std::size_t y) const {
+    const std::uint8_t* row = pixels_ + static_cast<std::ptrdiff_t>(y) * patch_.stride_bytes;
+    const Vector expected = hn::SaturatedAdd(across_, hn::Set(kLanes, down_[y]));
+    const Vector off = hn::Abs(hn::SaturatedSub(hn::ShiftLeft<6>(load(row)), expected));
+    return hn::VecFromMask(kLanes, hn::Gt(off, limit_));
   }
-  const Vector iota = hn::Iota(kLanes, 0);
-  const Vector limit = all(lane_units(plane.limit));
-  for (int y = 0; y < rows.count; ++y) {
-    const Span outer = rows.outer[static_cast<std::size_t>(y)];
-    const Span inner = rows.inner[static_cast<std::size_t>(y)];
-    const std::uint8_t* pixels = patch.row(y);
-    const Vector down = all(lane_units(plane.at_origin + plane.per_y * y));
-    for (int k = outer.first; k <= outer.last; k += kStep) {
-      const Vector x = hn::Add(iota, all(k));
-      const Vector expected = hn::SaturatedAdd(down, hn::LoadU(kLanes, across.data() + k));
-      const Vector value = hn::ShiftLeft<6>(load(pixels + k));
-      const Vector off =
-          hn::Max(hn::SaturatedSub(value, expected), hn::SaturatedSub(expected, value));
-      const auto outside = hn::AndNot(in_span(x, inner), in_span(x, outer));
-      const auto far = hn::And(outside, hn::Gt(off, limit));
-      if (hn::AllFalse(kLanes, far)) [[likely]] {
-        continue;
-      }
-      for (std::uint64_t bits = bits_of(kLanes, far); bits != 0; bits &= bits - 1) {
-        const int column = k + std::countr_zero(bits);
-        subtract(ring, column, y, pixels[column]);
-      }
+
+ private:
+  const ImageView& patch_;
+  const std::uint8_t* pixels_;
+  Vector across_;
+  const std::int16_t* down_;
+  Vector limit_;
+};
+
+HWY_INLINE Lines lines_of(const IntegerPlane& plane, const ImageView& patch) {
+  Lines lines;
+  set_line(0, plane.per_x, patch.width_px, lines.across);
+  set_line(plane.at_origin, plane.per_y, patch.height_px, lines.down);
+  return lines;
+}
+
+// Sums over some pixels of a strip: all bits of their lanes are set.
+class StripSums {
+ public:
+  HWY_INLINE StripSums() : count_(hn::Zero(kLanes)), rows_(count_), values_(count_) {}
+
+  HWY_INLINE void add(Vector which, Vector grey, Vector row) {
+    const Vector value = hn::And(which, grey);
+    const Vector down = hn::And(which, row);
+    count_ = hn::Sub(count_, which);
+    rows_ = hn::Add(rows_, down);
+    values_ = hn::Add(values_, value);
+    yy_.add(down, row);
+    vy_.add(value, row);
+    vv_.add(value, value);
+  }
+
+  HWY_INLINE void take_from(GreySums& sums, int column) const {
+    const Vector x = hn::Iota(kLanes, static_cast<std::int16_t>(column));
+    const Vector one = all(1);
+    const Vector across = hn::Mul(count_, x);
+    sums.n -= total_of(count_, one);
+    sums.x -= total_of(across, one);
+    sums.y -= total_of(rows_, one);
+    sums.xx -= total_of(across, x);
+    sums.xy -= total_of(rows_, x);
+    sums.yy -= yy_.total();
+    sums.v -= total_of(values_, one);
+    sums.vx -= total_of(values_, x);
+    sums.vy -= vy_.total();
+    sums.vv -= vv_.total();
+  }
+
+ private:
+  static HWY_INLINE std::int64_t total_of(Vector a, Vector b) {
+    ProductSum sum;
+    sum.add(a, b);
+    return sum.total();
+  }
+
+  Vector count_;
+  Vector rows_;
+  Vector values_;
+  ProductSum yy_, vy_, vv_;
+};
+
+void drop(const ImageView& patch, const RingMask& mask, const IntegerPlane& plane, GreySums& ring) {
+  const Lines lines = lines_of(plane, patch);
+  const auto rows = static_cast<std::size_t>(patch.height_px);
+  for (int k = 0; k < patch.width_px; k += kStep) {
+    const Off off(patch, lines, plane.limit, k);
+    const auto far_at = [&](std::size_t y) {
+      return hn::And(off.at(y), hn::LoadU(kLanes, mask.of.data() + mask_at(y, k)));
+    };
+    Vector any = hn::Zero(kLanes);
+    for (std::size_t y = 0; y < rows; ++y) any = hn::Or(any, far_at(y));
+    if (hn::AllFalse(kLanes, hn::MaskFromVec(any))) continue;
+    StripSums sums;
+    Vector row = hn::Zero(kLanes);
+    for (std::size_t y = 0; y < rows; ++y) {
+      sums.add(far_at(y), load(patch.row(static_cast<int>(y)) + k), row);
+      row = hn::Add(row, all(1));
     }
+    sums.take_from(ring, k);
+  }
+}
+
+void find_off(const ImageView& patch, const IntegerPlane& plane, PixelMap& map) {
+  const Lines lines = lines_of(plane, patch);
+  const auto rows = static_cast<std::size_t>(patch.height_px);
+  std::fill_n(map.begin(), rows, 0);
+  for (int k = 0; k < std::min(patch.width_px, kMapColumns); k += kStep) {
+    const Off off(patch, lines, plane.limit, k);
+    for (std::size_t y = 0; y < rows; ++y) {
+      map[y] |= bits_of(kLanes, hn::MaskFromVec(off.at(y))) << static_cast<unsigned>(k);
+    }
+  }
+}
+
+constexpr std::array<std::int16_t, 16> kLaneBits{
+    1,       1 << 1,  1 << 2,  1 << 3,
+    1 << 4,  1 << 5,  1 << 6,  1 << 7,
+    1 << 8,  1 << 9,  1 << 10, 1 << 11,
+    1 << 12, 1 << 13, 1 << 14, std::numeric_limits<std::int16_t>::min()};
+
+// All bits of the lanes that a map's row holds, from a column on.
+HWY_INLINE Vector lanes_of(std::uint64_t row, int column, Vector lane_bits) {
+  const auto bits = static_cast<std::int16_t>(row >> static_cast<unsigned>(column) & 0xFFFFU);
+  const Vector held = hn::And(hn::Set(kLanes, bits), lane_bits);
+  return hn::VecFromMask(kLanes, hn::Eq(held, lane_bits));
+}
+
+void take_away(const ImageView& patch, const PixelMap& map, GreySums& from) {
+  const Vector lane_bits = hn::LoadU(kLanes, kLaneBits.data());
+  const auto rows = static_cast<std::size_t>(patch.height_px);
+  std::uint64_t columns = 0;
+  for (std::size_t y = 0; y < rows; ++y) columns |= map[y];
+  for (int k = 0; k < std::min(patch.width_px, kMapColumns); k += kStep) {
+    if ((columns >> static_cast<unsigned>(k) & ((1U << static_cast<unsigned>(kStep)) - 1)) == 0) {
+      continue;
+    }
+    StripSums sums;
+    Vector row = hn::Zero(kLanes);
+    for (std::size_t y = 0; y < rows; ++y) {
+      const Vector grey = load(patch.row(static_cast<int>(y)) + k);
+      sums.add(lanes_of(map[y], k, lane_bits), grey, row);
+      row = hn::Add(row, all(1));
+    }
+    sums.take_from(from, k);
   }
 }
 
@@ -135,65 +279,34 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace dottrack::image {
-namespace {
-
-// Sums of 1, x, y and their products over rows of pixels. With n columns from first to last and m =
-// first + last: 2 sum x = n m, 12 sum x^2 = 3 n m^2 + n^3 - n.
-class PlaceSums {
- public:
-  void add(Span span, int y) {
-    const int n = span.last - span.first + 1;
-    const int m = span.last + span.first;
-    n_ += n;
-    x2_ += n * m;
-    xx12_ += n * (3 * m * m + n * n - 1);
-    y_ += n * y;
-    yy_ += n * y * y;
-    xy2_ += n * m * y;
-  }
-
-  // Adds them, or takes them away.
-  void move_to(GreySums& sums, int sign) const {
-    sums.n += sign * n_;
-    sums.x += sign * (x2_ / 2);
-    sums.y += sign * y_;
-    sums.xx += sign * (xx12_ / 12);
-    sums.xy += sign * (xy2_ / 2);
-    sums.yy += sign * yy_;
-  }
-
- private:
-  int n_ = 0;
-  int x2_ = 0;
-  int xx12_ = 0;
-  int y_ = 0;
-  int yy_ = 0;
-  int xy2_ = 0;
-};
-
-}  // namespace
-
 HWY_EXPORT(sum_values);
 HWY_EXPORT(drop);
+HWY_EXPORT(find_off);
+HWY_EXPORT(take_away);
 
-PatchSums sum_patch(const ImageView& patch, const PatchRows& rows) {
-  PlaceSums outer;
-  PlaceSums inner;
-  for (int y = 0; y < rows.count; ++y) {
-    outer.add(rows.outer[static_cast<std::size_t>(y)], y);
-    inner.add(rows.inner[static_cast<std::size_t>(y)], y);
-  }
+PatchSums sum_patch(const ImageView& patch, const PatchRows& rows, RingMask& mask) {
   PatchSums sums;
-  inner.move_to(sums.dot, 1);
-  outer.move_to(sums.ring, 1);
-  inner.move_to(sums.ring, -1);
-  HWY_DYNAMIC_DISPATCH(sum_values)(patch, rows, sums);
+  const PlaceSums& inner = rows.inner.places;
+  const PlaceSums& outer = rows.outer.places;
+  static_cast<PlaceSums&>(sums.dot) = inner;
+  static_cast<PlaceSums&>(sums.ring) = {outer.n - inner.n,   outer.x - inner.x,
+                                        outer.y - inner.y,   outer.xx - inner.xx,
+                                        outer.xy - inner.xy, outer.yy - inner.yy};
+  HWY_DYNAMIC_DISPATCH(sum_values)(patch, rows, mask, sums);
   return sums;
 }
 
-void drop_outliers(const ImageView& patch, const PatchRows& rows, const IntegerPlane& plane,
+void drop_outliers(const ImageView& patch, const RingMask& mask, const IntegerPlane& plane,
                    GreySums& ring) {
-  HWY_DYNAMIC_DISPATCH(drop)(patch, rows, plane, ring);
+  HWY_DYNAMIC_DISPATCH(drop)(patch, mask, plane, ring);
+}
+
+void find_off_plane(const ImageView& patch, const IntegerPlane& plane, PixelMap& map) {
+  HWY_DYNAMIC_DISPATCH(find_off)(patch, plane, map);
+}
+
+void subtract(const ImageView& patch, const PixelMap& map, GreySums& sums) {
+  HWY_DYNAMIC_DISPATCH(take_away)(patch, map, sums);
 }
 
 }  // namespace dottrack::image

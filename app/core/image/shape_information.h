@@ -26,10 +26,10 @@ class ShapeInformation {
   static Vector gradient(const OutlineModel& model, const ResidualSums& sums);
 
  private:
-  void invert();
+  bool invert();
 
-  Matrix covariance_;  // the information, until it is inverted
-  bool ok_ = true;
+  Matrix covariance_;  // the information, until it is inverted: its lower triangle
+  bool ok_ = false;
 };
 
 }  // namespace dottrack::image

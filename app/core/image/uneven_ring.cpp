@@ -1,11 +1,8 @@
 #include "app/core/image/uneven_ring.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 
 #include "app/core/image/ring_level.h"
 
@@ -14,54 +11,22 @@ namespace {
 
 constexpr int kRounds = 3;
 
-// A bit a column. The widest patch has one more: its last column is nobody's.
-using Row = std::uint64_t;
-using Map = std::array<Row, kMaxPatchSide_px>;
-constexpr int kColumns = 64;
+using Row = PixelMap::value_type;
 
 std::size_t index(int i) {
   return static_cast<std::size_t>(i);
 }
 
 Row up_to(int end) {
-  return end >= kColumns ? ~Row{0} : (Row{1} << static_cast<unsigned>(std::max(end, 0))) - 1;
+  return end >= kMapColumns ? ~Row{0} : (Row{1} << static_cast<unsigned>(std::max(end, 0))) - 1;
 }
 Row bits_of(const Spans& spans, int y) {
-  return up_to(spans[index(y)].last + 1) & ~up_to(spans[index(y)].first);
-}
-
-// Of the row's columns from first on, those that are off the plane by more than its limit.
-Row off_plane(const std::uint8_t* pixels, int y, int first, int end, const IntegerPlane& plane) {
-  constexpr std::int64_t kUnits = 65536;  // of the plane, a grey level
-  std::int64_t expected = plane.at_origin + plane.per_y * y + plane.per_x * first;
-  Row row = 0;
-  for (int x = first; x < end; ++x) {
-    const bool far = std::abs(kUnits * pixels[x] - expected) > plane.limit;
-    row |= Row{far} << static_cast<unsigned>(x);
-    expected += plane.per_x;
-  }
-  return row;
-}
-
-// Pixels off the plane where the dot's light does not reach.
-Map off_plane(const ImageView& patch, const PatchRows& rows, const Spans& lit,
-              const IntegerPlane& plane) {
-  Map map;
-  for (int y = 0; y < rows.count; ++y) {
-    const int first = rows.outer[index(y)].first;
-    const int end = std::min(rows.outer[index(y)].last + 1, kColumns);
-    const int lit_first = std::clamp<int>(lit[index(y)].first, first, std::max(first, end));
-    const int lit_end =
-        std::clamp<int>(lit[index(y)].last + 1, lit_first, std::max(lit_first, end));
-    map[index(y)] = off_plane(patch.row(y), y, first, lit_first, plane) |
-                    off_plane(patch.row(y), y, lit_end, end, plane);
-  }
-  return map;
+  return up_to(spans.after[index(y)]) & ~up_to(spans.before[index(y)] + 1);
 }
 
 // The eight next to each.
-Map neighbours(const Map& map, int rows) {
-  Map next;
+PixelMap neighbours(const PixelMap& map, int rows) {
+  PixelMap next;
   for (int y = 0; y < rows; ++y) {
     const auto sides = [&](int at) { return (map[index(at)] << 1U) | (map[index(at)] >> 1U); };
     next[index(y)] = sides(y);
@@ -71,51 +36,31 @@ Map neighbours(const Map& map, int rows) {
   return next;
 }
 
-// One by itself may be noise. What is left is blurred into the pixels next to it.
-Map strangers_in(const ImageView& patch, const PatchRows& rows, const Spans& lit,
-                 const IntegerPlane& plane) {
-  Map map = off_plane(patch, rows, lit, plane);
-  const Map next = neighbours(map, rows.count);
+// Those off the plane where the dot's light does not reach. One by itself may be noise; what is
+// left is blurred into the pixels next to it.
+PixelMap strangers_in(const ImageView& patch, const PatchRows& rows, const Spans& lit,
+                      const IntegerPlane& plane) {
+  PixelMap map;
+  find_off_plane(patch, plane, map);
+  for (int y = 0; y < rows.count; ++y) map[index(y)] &= bits_of(rows.outer, y) & ~bits_of(lit, y);
+  const PixelMap next = neighbours(map, rows.count);
   for (std::size_t y = 0; y < index(rows.count); ++y) map[y] &= next[y];
-  const Map wide = neighbours(map, rows.count);
+  const PixelMap wide = neighbours(map, rows.count);
   for (std::size_t y = 0; y < index(rows.count); ++y) map[y] |= wide[y];
   return map;
 }
 
-void subtract_row(const std::uint8_t* pixels, int y, Row row, GreySums& sums) {
-  for (; row != 0; row &= row - 1) {
-    const int x = std::countr_zero(row);
-    subtract(sums, x, y, pixels[x]);
-  }
-}
-
-void list_others(const ImageView& patch, const PatchRows& rows, const Map& strangers,
-                 DotPixels& pixels) {
-  pixels.count = 0;
-  for (int y = 0; y < rows.count; ++y) {
-    const std::uint8_t* row = patch.row(y);
-    for (int x = rows.inner[index(y)].first; x <= rows.inner[index(y)].last; ++x) {
-      const bool stranger =
-          x < kColumns && ((strangers[index(y)] >> static_cast<unsigned>(x)) & 1U) != 0;
-      if (!stranger) pixels.add(x, y, row[x]);
-    }
-  }
-  pixels.close();
-}
-
 }  // namespace
 
-void find_own_ground(const ImageView& patch, const PatchRows& rows, const Spans& nearest,
+void find_own_ground(const ImageView& patch, const PatchRows& nearest, const RingMask& mask,
                      const GreySums& whole, Plane& plane) {
-  PatchRows near = rows;
-  near.outer = nearest;
   RingLevel level;
-  if (!find_level(patch, near, level)) return;
+  if (!find_level(patch, nearest, level)) return;
   Plane ground{level.middle_dn, 0.0, 0.0, level.sigma_dn};
   std::int64_t kept_before = 0;
   for (int round = 0; round < kRounds; ++round) {
     GreySums kept = whole;
-    drop_outliers(patch, rows, rounded(ground, noise_limit_dn(ground)), kept);
+    drop_outliers(patch, mask, rounded(ground, noise_limit_dn(ground)), kept);
     if (!fit(kept, ground)) return;
     if (kept.n == kept_before) break;
     kept_before = kept.n;
@@ -126,17 +71,23 @@ void find_own_ground(const ImageView& patch, const PatchRows& rows, const Spans&
 void drop_strangers(const ImageView& patch, const PatchRows& rows, const DotReach& reach,
                     const Plane& plane, PatchSums& sums, DotPixels& pixels) {
   const double limit_dn = noise_limit_dn(plane) + reach.tail_dn;
-  Map strangers = strangers_in(patch, rows, reach.lit, rounded(plane, limit_dn));
+  const PixelMap strangers = strangers_in(patch, rows, reach.lit, rounded(plane, limit_dn));
+  PixelMap of_dot;
+  PixelMap of_ring;
+  PixelMap others;
   Row any_inside = 0;
   for (int y = 0; y < rows.count; ++y) {
-    Row& row = strangers[index(y)];
-    row &= bits_of(rows.outer, y) & ~bits_of(reach.edge, y);
+    const Row row = strangers[index(y)] & bits_of(rows.outer, y) & ~bits_of(reach.edge, y);
     const Row inside = bits_of(rows.inner, y);
+    of_dot[index(y)] = row & inside;
+    of_ring[index(y)] = row & ~inside;
+    others[index(y)] = inside & ~row;
     any_inside |= row & inside;
-    subtract_row(patch.row(y), y, row & inside, sums.dot);
-    subtract_row(patch.row(y), y, row & ~inside, sums.ring);
   }
-  if (any_inside != 0) list_others(patch, rows, strangers, pixels);
+  subtract(patch, of_ring, sums.ring);
+  if (any_inside == 0) return;
+  subtract(patch, of_dot, sums.dot);
+  list_pixels(patch, others, pixels);
 }
 
 }  // namespace dottrack::image

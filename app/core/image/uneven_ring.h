@@ -1,16 +1,11 @@
 #pragma once
 // Dots that lie on something small, a plate of their own, say: the ring reaches beyond its edge.
 
-#include <array>
-
 #include "app/core/image/dot_patch.h"
 #include "app/core/image/outline_sums.h"
 #include "app/core/image/ring_sums.h"
 
 namespace dottrack::image {
-
-// Columns of a patch, row by row.
-using Spans = std::array<Span, kMaxPatchSide_px>;
 
 // How far off a plane noise alone takes a pixel.
 inline constexpr double kOutlierSigmas = 3.5;
@@ -19,9 +14,9 @@ inline double noise_limit_dn(const Plane& plane) {
 }
 
 // The plane through what is like most of the ring's nearest part (find_level): the dot lies on
-// that. `nearest` has the rows' outer ends of that part; `whole` is of all the ring (sum_patch).
-// The plane stays as it is where there are too few pixels.
-void find_own_ground(const ImageView& patch, const PatchRows& rows, const Spans& nearest,
+// that. `nearest`: that part, its outer ends for the ring's. `mask` and `whole` are the ring's
+// (sum_patch). The plane stays as it is where there are too few pixels.
+void find_own_ground(const ImageView& patch, const PatchRows& nearest, const RingMask& mask,
                      const GreySums& whole, Plane& plane);
 
 // How far a dot goes: where its light reaches, and where its edge is; what of its light may be

@@ -85,8 +85,11 @@ class RingLevelTest : public testing::Test {
 
   RingLevelTest() : pixels_(static_cast<std::size_t>(kSide) * kPatchColumns_px) {
     rows_.count = kSide;
-    rows_.outer.fill({0, kSide - 1});
-    for (std::size_t y = 7; y < 14; ++y) rows_.inner[y] = {7, 13};
+    rows_.outer.before.fill(-1);
+    rows_.outer.after.fill(kSide);
+    rows_.inner.before.fill(6);
+    rows_.inner.after.fill(7);
+    for (std::size_t y = 7; y < 14; ++y) rows_.inner.after[y] = 14;
   }
 
   ImageView view() const { return {pixels_.data(), kSide, kSide, kPatchColumns_px}; }
@@ -139,10 +142,10 @@ TEST_F(RingLevelTest, DoesNotLookAtTheDot) {
 
 TEST_F(RingLevelTest, AFewPixelsTellNothing) {
   rows_.count = 1;
-  rows_.outer[0] = {0, 18};
+  rows_.outer.after[0] = 19;
   RingLevel level;
   EXPECT_FALSE(find_level(view(), rows_, level));
-  rows_.outer[0] = {0, 19};
+  rows_.outer.after[0] = 20;
   EXPECT_TRUE(find_level(view(), rows_, level));
 }
 
