@@ -1,6 +1,6 @@
 # What `dottrack sim` and `dottrack experiments` are made of, beside their commands.
 dottrack_library(workstation_figures
-  SOURCES light_tally.cpp straightness.cpp svg_chart.cpp truth_record.cpp
+  SOURCES light_tally.cpp straightness.cpp svg_chart.cpp truth_record.cpp xml_text.cpp
   USES dottrack::workstation_outputs)
 dottrack_library(workstation_sim
   SOURCES experiment_figures.cpp experiment_table.cpp experiments.cpp interrupt.cpp light_figures.cpp progress.cpp

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "app/workstation/xml_text.h"
+
 namespace dottrack::workstation {
 namespace {
 
@@ -24,26 +26,6 @@ struct Range {
 
   double size() const { return high - low; }
 };
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 // Of all finite points along one axis; [0, 1] without any.
 Range range_of(const Chart& chart, int axis) {

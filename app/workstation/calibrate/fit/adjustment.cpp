@@ -43,14 +43,37 @@ struct SurveyCost {
 };
 
 struct NumberCost {
-  NumberPriors priors;
+  Numbers sigma;  // 0: no matter
 
   template <class T>
   bool operator()(const T* numbers, T* residual) const {
     for (std::size_t i = 0; i < kNumbers; ++i) {
-      const double sigma = priors.sigma[i];
-      residual[i] = sigma > 0.0 ? (numbers[i] - priors.mean[i]) / sigma : T(0.0);
+      residual[i] = sigma[i] > 0.0 ? numbers[i] / sigma[i] : T(0.0);
     }
+    return true;
+  }
+};
+
+using RadialTerms = std::array<double, kRadialTerms>;
+
+struct LikenessCost {
+  RadialTerms sigma;  // 0: no matter
+
+  template <class T>
+  bool operator()(const T* numbers, const T* lens, T* residual) const {
+    for (std::size_t i = 0; i < kRadialTerms; ++i) {
+      residual[i] = sigma[i] > 0.0 ? (numbers[kRadial + i] - lens[i]) / sigma[i] : T(0.0);
+    }
+    return true;
+  }
+};
+
+struct LensCost {
+  RadialTerms sigma;
+
+  template <class T>
+  bool operator()(const T* lens, T* residual) const {
+    for (std::size_t i = 0; i < kRadialTerms; ++i) residual[i] = lens[i] / sigma[i];
     return true;
   }
 };
@@ -83,6 +106,7 @@ class Bundle {
     add_views();
     add_dots();
     add_cameras();
+    if (adjustment_.lens.exists) add_lens();
   }
 
   bool solve(Precision precision) {
@@ -100,6 +124,9 @@ class Bundle {
       if (problem_.HasParameterBlock(c.camera.numbers.data())) {
         options.linear_solver_ordering->AddElementToGroup(c.camera.numbers.data(), 1);
       }
+    }
+    if (problem_.HasParameterBlock(adjustment_.lens.radial.data())) {
+      options.linear_solver_ordering->AddElementToGroup(adjustment_.lens.radial.data(), 1);
     }
     options.num_threads = 1;
     options.max_num_iterations = full ? 200 : 40;
@@ -151,13 +178,40 @@ class Bundle {
     for (AdjustedCamera& c : adjustment_.cameras) {
       if (!problem_.HasParameterBlock(c.camera.numbers.data())) continue;
       auto* const cost =
-          new ceres::AutoDiffCostFunction<NumberCost, kNumbers, kNumbers>(new NumberCost{c.priors});
+          new ceres::AutoDiffCostFunction<NumberCost, kNumbers, kNumbers>(new NumberCost{own(c)});
       problem_.AddResidualBlock(cost, nullptr, c.camera.numbers.data());
       const std::vector<int> fixed = fixed_numbers(c.camera.kind);
       if (!fixed.empty()) {
         problem_.SetManifold(c.camera.numbers.data(), new ceres::SubsetManifold(kNumbers, fixed));
       }
     }
+  }
+
+  // Sigmas of the numbers that are a camera's own.
+  Numbers own(const AdjustedCamera& c) const {
+    Numbers sigma = c.priors.sigma;
+    for (int i = 0; i < kNumbers; ++i) {
+      if (adjustment_.shares(c, i)) sigma[static_cast<std::size_t>(i)] = 0.0;
+    }
+    return sigma;
+  }
+
+  void add_lens() {
+    double* const lens = adjustment_.lens.radial.data();
+    for (AdjustedCamera& c : adjustment_.cameras) {
+      if (!problem_.HasParameterBlock(c.camera.numbers.data())) continue;
+      RadialTerms sigma{};
+      for (std::size_t i = 0; i < kRadialTerms; ++i) {
+        if (adjustment_.shares(c, kRadial + static_cast<int>(i))) {
+          sigma[i] = c.priors.sigma[kRadial + i];
+        }
+      }
+      using Cost = ceres::AutoDiffCostFunction<LikenessCost, kRadialTerms, kNumbers, kRadialTerms>;
+      problem_.AddResidualBlock(new Cost(new LikenessCost{sigma}), nullptr, c.camera.numbers.data(),
+                                lens);
+    }
+    using Cost = ceres::AutoDiffCostFunction<LensCost, kRadialTerms, kRadialTerms>;
+    problem_.AddResidualBlock(new Cost(new LensCost{lens_sigma(adjustment_)}), nullptr, lens);
   }
 
   Adjustment& adjustment_;
@@ -175,6 +229,16 @@ bool all_finite(const Adjustment& adjustment) {
 }
 
 }  // namespace
+
+std::array<double, kRadialTerms> lens_sigma(const Adjustment& adjustment) {
+  std::array<double, kRadialTerms> sigma{};
+  for (const AdjustedCamera& c : adjustment.cameras) {
+    for (std::size_t i = 0; i < kRadialTerms; ++i) {
+      sigma[i] = std::max(sigma[i], c.priors.loosest[kRadial + i]);
+    }
+  }
+  return sigma;
+}
 
 bool solve(Adjustment& adjustment, Loss loss, Precision precision) {
   const bool usable = Bundle(adjustment, loss).solve(precision);

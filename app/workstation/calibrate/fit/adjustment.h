@@ -12,8 +12,9 @@
 
 namespace dottrack::calibrate {
 
+// Of a number's distance from zero; that of a radial term from the common lens's, where there is
+// one.
 struct NumberPriors {
-  Numbers mean{};
   Numbers sigma{};    // 0: nothing is known of the number
   Numbers loosest{};  // the most that sigma may become where it is learnt from the cameras
 };
@@ -41,8 +42,15 @@ struct View {
   bool kept = true;
 };
 
+// What lenses of one make bend: itself unknown, and adjusted with all the rest.
+struct CommonLens {
+  bool exists = false;  // else each camera's radial terms are on their own
+  std::array<double, kRadialTerms> radial{};
+};
+
 struct Adjustment {
   std::vector<AdjustedCamera> cameras;
+  CommonLens lens;
   std::vector<AdjustedDot> dots;
   std::vector<View> views;
   double survey_scale = 1.0;  // factor of the dots' sigmas
@@ -50,7 +58,16 @@ struct Adjustment {
   double sigma_px(const View& view) const {
     return view.sigma_px * cameras[view.camera].image_scale;
   }
+  // Whether a number of a camera is known by what the lenses have in common.
+  bool shares(const AdjustedCamera& camera, int number) const {
+    return lens.exists && number >= kRadial && number < kRadial + kRadialTerms &&
+           is_free(camera.camera.kind, number) &&
+           camera.priors.sigma[static_cast<std::size_t>(number)] > 0.0;
+  }
 };
+
+// As little is known of the common lens beforehand as of any of the lenses.
+std::array<double, kRadialTerms> lens_sigma(const Adjustment& adjustment);
 
 enum class Loss : std::uint8_t {
   squares,

@@ -23,7 +23,8 @@ inline constexpr int kCentre = 8;   // 2: of (hc, vc) from the frame's middle, i
 inline constexpr int kSkew = 10;    // of the columns, radians
 inline constexpr int kAxis = 11;    // 2: tangents from A to O, to the right and down
 inline constexpr int kRadial = 13;  // 2: r1, r2
-inline constexpr int kPupil = 15;   // 2: e0, e1, in distances
+inline constexpr int kRadialTerms = 2;
+inline constexpr int kPupil = 15;  // 2: e0, e1, in distances
 inline constexpr int kNumbers = 17;
 
 using Numbers = std::array<double, kNumbers>;

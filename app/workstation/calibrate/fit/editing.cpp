@@ -149,8 +149,8 @@ namespace {
 constexpr double kLeastImageSigma_px = 0.003;
 constexpr double kLeastSurveySigma = 1e-7;  // of the distance
 constexpr double kEnoughRedundancy = 20.0;
-constexpr double kBelief =
-    20.0;  // as many coordinates as a camera's noise is believed to be that of all
+constexpr double kLeastBelief = 20.0;  // coordinates
+constexpr double kMostBelief = 200.0;
 
 struct Sums {
   double square = 0.0;
@@ -188,10 +188,57 @@ double common_redundancy(const Adjustment& adjustment) {
   return sum - numbers;
 }
 
+// As many coordinates as a camera's noise is believed to be that of all, from by how much more than
+// chance makes them the cameras' variances differ: one from n coordinates is off by sqrt(2 / n).
+double belief_in_common(const std::vector<Sums>& cameras, const std::vector<double>& relative) {
+  double excess = 0.0;
+  double redundancy = 0.0;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    excess += cameras[i].redundancy * std::pow(relative[i] - 1.0, 2) - 2.0;
+    redundancy += cameras[i].redundancy;
+  }
+  if (!(excess > 0.0)) return kMostBelief;
+  return std::clamp(2.0 * redundancy / excess, kLeastBelief, kMostBelief);
+}
+
 double scale_by(double& scale, double factor2, double least) {
   const double before = scale;
   scale = std::max(scale * std::sqrt(std::max(factor2, 1e-6)), least);
   return std::abs(std::log(scale / before));
+}
+
+double scale_all(Adjustment& adjustment, double factor2, double least) {
+  double change = 0.0;
+  for (AdjustedCamera& c : adjustment.cameras) {
+    change = std::max(change, scale_by(c.image_scale, factor2, least));
+  }
+  return change;
+}
+
+// Each camera's as it shows, drawn to that of all as far as they are alike.
+double scale_each(Adjustment& adjustment, const std::vector<Sums>& cameras, double least) {
+  std::vector<double> variance;
+  double sum = 0.0;
+  double redundancy = 0.0;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const double scale2 = std::pow(adjustment.cameras[i].image_scale, 2);
+    variance.push_back(cameras[i].factor2(false, kMedian2) * scale2);
+    sum += cameras[i].redundancy * variance.back();
+    redundancy += cameras[i].redundancy;
+  }
+  if (!(redundancy > 0.0)) return 0.0;
+  const double common = sum / redundancy;
+  std::vector<double> relative;
+  for (const double v : variance) relative.push_back(v / common);
+  const double belief = belief_in_common(cameras, relative);
+  double change = 0.0;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const double weight = std::max(cameras[i].redundancy, 0.0);
+    const double wanted = (weight * variance[i] + belief * common) / (weight + belief);
+    double& scale = adjustment.cameras[i].image_scale;
+    change = std::max(change, scale_by(scale, wanted / (scale * scale), least));
+  }
+  return change;
 }
 
 double least_sigma_px(const Adjustment& adjustment) {
@@ -235,18 +282,12 @@ double estimate_noise(Adjustment& adjustment, const Information& information,
     both.square += survey.square;
     both.redundancy += survey.redundancy;
     const double factor2 = both.factor2(options.robust, kMedian2);
-    for (AdjustedCamera& c : adjustment.cameras) {
-      change = std::max(change, scale_by(c.image_scale, factor2, least_image));
-    }
+    change = scale_all(adjustment, factor2, least_image);
     return std::max(change, scale_by(adjustment.survey_scale, factor2, least_survey));
   }
-  const double common2 = image.factor2(options.robust, kMedian2);
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    const double own2 = cameras[i].factor2(options.robust, kMedian2);
-    const double weight = options.for_each_camera ? cameras[i].redundancy : 0.0;
-    const double factor2 = (weight * own2 + kBelief * common2) / (weight + kBelief);
-    change = std::max(change, scale_by(adjustment.cameras[i].image_scale, factor2, least_image));
-  }
+  change = options.for_each_camera
+               ? scale_each(adjustment, cameras, least_image)
+               : scale_all(adjustment, image.factor2(options.robust, kMedian2), least_image);
   return std::max(change, scale_by(adjustment.survey_scale,
                                    survey.factor2(options.robust, kMedian3), least_survey));
 }

@@ -4,6 +4,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
 
 namespace dottrack::calibrate {
 namespace {
@@ -55,6 +57,8 @@ class Elimination {
     if (!inverse_.allFinite()) return std::nullopt;
     Information information;
     for (std::size_t i = 0; i < a_.cameras.size(); ++i) information.cameras.push_back(block(i, i));
+    information.off_lens.assign(a_.cameras.size(), Vector2d::Zero());
+    for (int term = 0; term < kRadialTerms; ++term) judge_lens(term, information);
     information.views.resize(a_.views.size());
     for (std::size_t j = 0; j < a_.dots.size(); ++j) judge_dot(j, information);
     return information;
@@ -124,8 +128,63 @@ class Elimination {
       }
       add(i, i, prior);
     }
+    for (int term = 0; term < kRadialTerms; ++term) couple(term);
     dot_inverse_.resize(a_.dots.size());
     for (std::size_t j = 0; j < a_.dots.size(); ++j) eliminate(j);
+  }
+
+  // A radial term of the cameras whose lenses are alike. The common lens's own, given theirs, is
+  // normal with the weighted mean and the variance 1 / weight.
+  struct Alike {
+    std::vector<std::pair<std::size_t, int>> members;  // camera, column
+    Eigen::VectorXd weights;
+    double weight = 0.0;
+  };
+
+  Alike alike(int term) const {
+    Alike out;
+    std::vector<double> weights;
+    const auto number = static_cast<std::size_t>(kRadial + term);
+    for (std::size_t i = 0; i < a_.cameras.size(); ++i) {
+      if (!a_.shares(a_.cameras[i], kRadial + term)) continue;
+      out.members.emplace_back(i, layout_.column[i][number]);
+      weights.push_back(std::pow(a_.cameras[i].priors.sigma[number], -2));
+    }
+    out.weights = Eigen::Map<Eigen::VectorXd>(weights.data(), static_cast<Index>(weights.size()));
+    const double sigma = lens_sigma(a_)[static_cast<std::size_t>(term)];
+    out.weight = out.weights.sum() + std::pow(sigma, -2);
+    return out;
+  }
+
+  // That the common lens is not known.
+  void couple(int term) {
+    if (!a_.lens.exists) return;
+    const Alike all = alike(term);
+    for (std::size_t i = 0; i < all.members.size(); ++i) {
+      for (std::size_t j = 0; j < all.members.size(); ++j) {
+        reduced_(all.members[i].second, all.members[j].second) -=
+            all.weights[static_cast<Index>(i)] * all.weights[static_cast<Index>(j)] / all.weight;
+      }
+    }
+  }
+
+  void judge_lens(int term, Information& out) const {
+    if (!a_.lens.exists) return;
+    const Alike all = alike(term);
+    const auto size = static_cast<Index>(all.members.size());
+    MatrixXd covariance(size, size);
+    for (Index i = 0; i < size; ++i) {
+      for (Index j = 0; j < size; ++j) {
+        covariance(i, j) = inverse_(all.members[static_cast<std::size_t>(i)].second,
+                                    all.members[static_cast<std::size_t>(j)].second);
+      }
+    }
+    const Eigen::VectorXd with_lens = covariance * all.weights / all.weight;
+    const double of_lens = all.weights.dot(with_lens) / all.weight + 1.0 / all.weight;
+    for (Index i = 0; i < size; ++i) {
+      out.off_lens[all.members[static_cast<std::size_t>(i)].first][term] =
+          covariance(i, i) - 2.0 * with_lens[i] + of_lens;
+    }
   }
 
   bool used(std::size_t view) const { return a_.views[view].kept && weighed_[view].known; }

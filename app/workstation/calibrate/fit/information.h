@@ -26,7 +26,10 @@ struct Information {
   // Of the numbers of each camera, its zero rows those that are not free.
   std::vector<Eigen::Matrix<double, kNumbers, kNumbers>> cameras;
   std::vector<Eigen::Matrix3d> dots;  // of their positions, square metres
-  std::vector<Judged<2>> views;       // in the adjustment's order
+  // Variances of how far each camera's radial terms are from the common lens's; zero where they
+  // are on their own.
+  std::vector<Eigen::Vector2d> off_lens;
+  std::vector<Judged<2>> views;  // in the adjustment's order
   std::vector<Judged<3>> surveys;
 };
 

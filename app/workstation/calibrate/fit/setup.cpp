@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "app/config/camera_internal.h"
 #include "app/workstation/calibrate/fit/camera_priors.h"
 #include "app/workstation/calibrate/fit/camera_start.h"
+#include "app/workstation/calibrate/fit/chi_square.h"
+#include "app/workstation/calibrate/fit/information.h"
 
 namespace dottrack::calibrate {
 namespace {
@@ -17,6 +21,9 @@ using Eigen::Vector3d;
 constexpr std::size_t kFewestDots = 6;
 constexpr double kLeastSigma_m = 1e-9;
 constexpr double kHeldScaleSigma = 1e-4;
+constexpr double kLeastNoise_px = 0.02;  // of what is called a dot
+constexpr double kMostNoise_px = 0.5;
+constexpr double kPoorScale = 0.2;  // a focal length that is known no better is not known
 
 double median_distance_m(std::span<const Vector3d> points, const Vector3d& from) {
   std::vector<double> distances;
@@ -31,6 +38,46 @@ bool sees_all(const geometry::CameraModel& model, std::span<const Vector3d> poin
     const geometry::Cahv m = config::linear_part(model);
     return (p - m.c).dot(m.a) > 0.0;
   });
+}
+
+double median_off_px(const geometry::CameraModel& model, std::span<const Vector3d> points,
+                     std::span<const Vector2d> pixels) {
+  std::vector<double> off_px;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Vector2d at(1e6, 1e6);
+    static_cast<void>(project(model, points[i], at));
+    off_px.push_back((at - pixels[i]).norm());
+  }
+  const auto middle = off_px.begin() + static_cast<long>(off_px.size() / 2);
+  std::nth_element(off_px.begin(), middle, off_px.end());
+  return *middle;
+}
+
+// Standard deviation of the focal length, a part of it, where a plane's own perspective is all that
+// tells it: as noisy as the residuals are, of which a lens may have made the most.
+double focal_sigma(const StartedCamera& camera, std::span<const Vector3d> points,
+                   std::span<const Vector2d> pixels) {
+  Adjustment plane;
+  plane.cameras.push_back(prepared(camera, {}, 0));
+  const double off_px = median_off_px(camera.start, points, pixels);
+  const double sigma_px = std::clamp(off_px / std::sqrt(kMedian2), kLeastNoise_px, kMostNoise_px);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    AdjustedDot dot;
+    dot.surveyed_m = points[i];
+    dot.sigma_m.setConstant(1e-6 * camera.distance_m);
+    plane.dots.push_back(dot);
+    plane.views.push_back({0, i, pixels[i], sigma_px, true});
+  }
+  const auto information = inform(plane);
+  if (!information) return std::numeric_limits<double>::infinity();
+  return std::sqrt(information->cameras[0](kScale, kScale));
+}
+
+bool scale_is_told(StartedCamera camera, const geometry::Cahv& start,
+                   std::span<const Vector3d> points, std::span<const Vector2d> pixels) {
+  camera.start = start;
+  camera.distance_m = median_distance_m(points, start.c);
+  return !camera.flat || focal_sigma(camera, points, pixels) < kPoorScale;
 }
 
 }  // namespace
@@ -51,14 +98,15 @@ Result<StartedCamera> started(std::span<const SurveyedDot> dots, const CameraVie
   StartedCamera camera;
   camera.extent = {views.width_px, views.height_px};
   camera.flat = in_a_plane(points);
-  if (const auto start = start_from({points, pixels}, camera.extent)) {
+  const auto start = start_from({points, pixels}, camera.extent);
+  if (start && scale_is_told(camera, *start, points, pixels)) {
     camera.start = *start;
   } else if (views.approximate && sees_all(*views.approximate, points)) {
     camera.start = *views.approximate;
     camera.hold_scale = true;
   } else if (camera.flat) {
     return fail(
-        fmt::format("camera {}: its {} dots are in one plane that it looks at straight on: "
+        fmt::format("camera {}: its {} dots are in one plane that it looks at nearly straight on: "
                     "distance and focal length cannot be told apart; add dots off that "
                     "plane, tilt it, or give an approximate model",
                     views.name, points.size()));

@@ -7,11 +7,13 @@
 #include <cmath>
 
 #include "app/workstation/svg_chart.h"
+#include "app/workstation/xml_text.h"
 
 namespace dottrack::calibrate {
 namespace {
 
 using Eigen::Vector2d;
+using workstation::escaped;
 
 constexpr double kPictureWidth = 460.0;
 constexpr double kMapWidth = 760.0;
@@ -215,32 +217,6 @@ std::string residual_drawing(const CameraCalibration& camera,
 std::string map_drawing(const ErrorMap& map, const Calibration& calibration) {
   if (map.columns == 0 || map.rows == 0) return "";
   return MapPicture(map, calibration).svg();
-}
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
 }
 
 std::string length_words(double metres) {

@@ -18,9 +18,6 @@ std::string residual_drawing(const CameraCalibration& camera, std::span<const Su
 // The expected error by colour, with the cameras' places.
 std::string map_drawing(const ErrorMap& map, const Calibration& calibration);
 
-// `text` with the five characters that mean something to XML written out.
-std::string escaped(std::string_view text);
-
 // A length with the unit that suits it: "1.23 mm".
 std::string length_words(double metres);
 

@@ -9,9 +9,12 @@
 
 #include "app/workstation/calibrate/report/drawings.h"
 #include "app/workstation/calibrate/report/error_map.h"
+#include "app/workstation/xml_text.h"
 
 namespace dottrack::calibrate {
 namespace {
+
+using workstation::escaped;
 
 constexpr const char* kStyle =
     "body{font-family:sans-serif;color:#222;max-width:1100px;margin:24px auto;padding:0 16px}"

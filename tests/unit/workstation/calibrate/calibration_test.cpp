@@ -4,6 +4,8 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -185,6 +187,76 @@ TEST(Calibrate, HoldsWhatAPlaneDoesNotTell) {
     }();
     EXPECT_NEAR(internal.hc, 319.5, 40.0);
     EXPECT_NEAR(internal.vs / internal.hs, 1.0, 0.01);
+  }
+}
+
+// A wall full of dots, and cameras that look at it: the second one tilted by an angle.
+struct Wall {
+  std::vector<SurveyedDot> dots;
+  std::vector<CameraViews> views;
+  std::vector<geometry::Cahv> truths;
+};
+
+Wall wall(double tilt_rad) {
+  Wall out;
+  for (int i = 0; i < 48; ++i) {
+    SurveyedDot& dot = out.dots.emplace_back();
+    dot.name = std::to_string(i + 1);
+    dot.position_m = {0.4 * (i % 8) - 1.4, 0.4 * (i / 8) - 1.0, 0.0};
+    dot.sigma_m = Vector3d::Constant(1e-4);
+  }
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> noise(0.0, 0.05);
+  for (const double tilt : {0.6, tilt_rad}) {
+    const Vector3d a(std::sin(tilt), 0.0, std::cos(tilt));
+    const Vector3d right(std::cos(tilt), 0.0, -std::sin(tilt));
+    const Vector3d down(0.0, 1.0, 0.0);
+    const geometry::Cahv truth{-4.0 * a, a, 600.0 * right + 319.5 * a, 600.0 * down + 239.5 * a};
+    CameraViews& views = out.views.emplace_back();
+    views.name = "cam" + std::to_string(out.views.size());
+    views.width_px = test::kHallColumns;
+    views.height_px = test::kHallRows;
+    for (std::size_t j = 0; j < out.dots.size(); ++j) {
+      Vector2d pixel;
+      EXPECT_EQ(project(truth, out.dots[j].position_m, pixel), geometry::OpticsStatus::ok);
+      views.observations.push_back({j, pixel + Vector2d(noise(random), noise(random)), 0.05});
+    }
+    out.truths.push_back(truth);
+  }
+  return out;
+}
+
+TEST(Calibrate, SaysWhichCameraLooksStraightAtAPlane) {
+  for (const double tilt : {0.0, 0.001}) {
+    const Wall given = wall(tilt);
+    const auto found = calibrate(given.dots, given.views, quick(ModelKind::cahv));
+    ASSERT_FALSE(found) << tilt;
+    const std::string& message = found.error().message;
+    EXPECT_NE(message.find("camera cam2"), std::string::npos) << message;
+    EXPECT_NE(message.find("48 dots are in one plane"), std::string::npos) << message;
+    EXPECT_NE(message.find("tilt it"), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+TEST(Calibrate, TakesTheFocalLengthOfAModelWhereAPlaneDoesNotTell) {
+  Wall given = wall(0.0);
+  given.views[1].approximate = given.truths[1];
+  const auto found = calibrate(given.dots, given.views, quick(ModelKind::cahv));
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_LT((geometry::centre(found->cameras[1].model) - given.truths[1].c).norm(), 0.02);
+  const auto& remarks = found->cameras[1].remarks;
+  EXPECT_EQ(std::count_if(remarks.begin(), remarks.end(),
+                          [](auto& r) { return r.find("focal length held") != r.npos; }),
+            1);
+}
+
+TEST(Calibrate, MeasuresAFocalLengthFromATiltedPlane) {
+  const Wall given = wall(0.35);
+  const auto found = calibrate(given.dots, given.views, quick(ModelKind::cahv));
+  ASSERT_TRUE(found) << found.error().message;
+  for (std::size_t i = 0; i < found->cameras.size(); ++i) {
+    EXPECT_LT((geometry::centre(found->cameras[i].model) - given.truths[i].c).norm(), 0.02);
   }
 }
 

@@ -64,12 +64,16 @@ geometry::CameraModel camera(std::size_t i, const HallOptions& options, Random& 
   const double vs = focal * (1.0 + options.aspect * random.uniform(-1.0, 1.0));
   const Vector3d o =
       a + options.axis * (random.uniform(-1.0, 1.0) * right + random.uniform(-1.0, 1.0) * down);
+  Vector2d radial = options.radial;
+  if (options.radial_sigma > 0.0) {
+    for (double& r : radial) r *= 1.0 + options.radial_sigma * random.normal();
+  }
   return geometry::Cahvor{from,
                           a,
                           focal * right + hc * a,
                           vs * down + vc * a,
                           o.normalized(),
-                          {0.0, options.radial.x(), options.radial.y()}};
+                          {0.0, radial.x(), radial.y()}};
 }
 
 bool in_image(const geometry::CameraModel& model, const Vector3d& p, Vector2d& pixel) {

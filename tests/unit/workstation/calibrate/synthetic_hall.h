@@ -23,6 +23,7 @@ struct HallOptions {
   double extent = 1.0;      // of the part of the hall in which the dots are and cameras look
   double focal_px = 460.0;  // 70 degrees
   Eigen::Vector2d radial{-0.12, 0.02};  // r1, r2
+  double radial_sigma = 0.0;            // by which lenses differ, as a part of the radial terms
   double aspect = 0.002;                // pixels are this far from square, at most
   double axis = 0.008;                  // and the lens's axis this far from A, each way
   std::uint64_t seed = 1;
