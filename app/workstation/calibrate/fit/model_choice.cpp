@@ -21,7 +21,7 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
 constexpr double kCoordinatesANumber = 1.5;  // fewest, of what a model is fitted to
-constexpr double kWithinNoise = 0.5;         // standard errors that a simpler model may be worse by
+constexpr double kWithinNoise = 1.0;         // standard errors that a simpler model may be worse by
 constexpr double kPupilGain = 0.93;     // of the residuals of a camera alone, to try a moving pupil
 constexpr double kPupilErrors = 3.0;    // standard errors by which it must be better
 constexpr double kAlike = 1.5;          // of focal lengths
