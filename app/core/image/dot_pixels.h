@@ -14,16 +14,18 @@ namespace dottrack::image {
 struct DotPixels {
   static constexpr int kCapacity = 2368;
   static constexpr int kBlock = 8;  // that many are worked on at a time
+  static constexpr float kFar_px = 200.0F;
 
   int count = 0;
   std::array<float, kCapacity + kBlock> x;
   std::array<float, kCapacity + kBlock> y;
   std::array<float, kCapacity + kBlock> grey;
 
-  // After the last pixel: what is read behind it is far from the dot.
+  // After the last pixel: what is read behind it is outside of every dot, but not so far that the
+  // little of a dot that is left there counts, times the square of the distance.
   void close() {
     const auto end = static_cast<std::ptrdiff_t>(count);
-    std::fill_n(x.begin() + end, kBlock, 1e4F);
+    std::fill_n(x.begin() + end, kBlock, kFar_px);
     std::fill_n(y.begin() + end, kBlock, 0.0F);
     std::fill_n(grey.begin() + end, kBlock, 0.0F);
   }
