@@ -73,8 +73,8 @@ struct OutlinePoint {
   double speed;
 };
 
-// Along the outline, by length: u u^T, and h = 1 / |A u| times the third harmonics with each other,
-// the normal and u.
+// Along the outline, by length: h = 1 / |A u| times the third harmonics with each other, the normal
+// and u.
 struct ThirdIntegrals {
   explicit ThirdIntegrals(const Matrix2d& root) {
     const double determinant = root.determinant();
@@ -83,14 +83,12 @@ struct ThirdIntegrals {
       const double h = determinant / at.speed;
       const Vector2d third = third_harmonics(at.place);
       const Vector2d third_step = kStep_rad * h * third;
-      place_place += kStep_rad * at.speed * at.place * at.place.transpose();
       third_third += determinant * third_step * third.transpose();
       third_normal += third_step * at.across.transpose();
       third_place += kStep_rad * determinant * third * at.place.transpose();
     }
   }
 
-  Matrix2d place_place = Matrix2d::Zero();
   Matrix2d third_third = Matrix2d::Zero();
   Matrix2d third_normal = Matrix2d::Zero();
   Matrix2d third_place = Matrix2d::Zero();
@@ -104,8 +102,8 @@ Matrix2d CentreInformation::light_by_slope(const OutlineModel& model) const {
          area_ * model.blur_px * model.blur_px * Matrix2d::Identity();
 }
 
-// Across an edge of blur s, by distance, the integral of (phi / s)^2 is 1 / (2 sqrt(pi) s), of e
-// phi / s it is 1/2, and e - e^2 has s / sqrt(pi).
+// Across an edge of blur s, by distance, the integral of (phi / s)^2 is 1 / (2 sqrt(pi) s), and of
+// e phi / s it is 1/2.
 CentreInformation::CentreInformation(const OutlineModel& model, const FitWindow& window) {
   integrate(model);
   const double c = model.contrast_dn;

@@ -1,7 +1,8 @@
 #pragma once
 // What a dot's pixels say about its centre and the background's slope: Fisher's information at unit
-// noise, from integrals along the outline instead of sums over pixels. Of a symmetric dot neither
-// has to do with shape, blur, contrast and level.
+// noise, from integrals along the outline instead of sums over pixels, and what they say of a slope
+// of the dot's own light, from such sums. Of a symmetric dot none of these has to do with shape,
+// blur, contrast and level.
 
 #include <Eigen/Core>
 
