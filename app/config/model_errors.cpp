@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -79,6 +80,19 @@ VectorXd effect(const core::Camera& camera, const std::vector<Vector3d>& places,
   return shift;
 }
 
+// Column by column of the vectors' numbers, in steps as small as these are uncertain.
+MatrixXd effect_of_numbers(const core::Camera& camera, const std::vector<Vector3d>& places,
+                           const MatrixXd& covariance) {
+  constexpr double kPart = 0.01;
+  MatrixXd out = MatrixXd::Zero(2 * static_cast<Index>(places.size()), covariance.cols());
+  for (Index i = 0; i < covariance.cols(); ++i) {
+    const double step = kPart * std::sqrt(std::max(covariance(i, i), 0.0));
+    if (!(step > 0.0)) continue;
+    out.col(i) = effect(camera, places, step * VectorXd::Unit(covariance.cols(), i)) / step;
+  }
+  return out;
+}
+
 // Columns whose outer products add up to the covariance.
 MatrixXd root_of(const MatrixXd& covariance) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(covariance);
@@ -88,20 +102,26 @@ MatrixXd root_of(const MatrixXd& covariance) {
 
 }  // namespace
 
-void set_model_errors(const MatrixXd& covariance, core::Camera& camera) {
+MatrixXd set_model_errors(const MatrixXd& covariance, core::Camera& camera) {
   camera.model_errors.clear();
+  MatrixXd readings(0, covariance.cols());
   const std::vector<Vector3d> places = places_seen(camera);
-  if (places.empty()) return;
+  if (places.empty()) return readings;
   const MatrixXd root = root_of(covariance);
   MatrixXd effects(2 * static_cast<Index>(places.size()), root.cols());
   for (Index i = 0; i < root.cols(); ++i) effects.col(i) = effect(camera, places, root.col(i));
-  const Eigen::JacobiSVD<MatrixXd> svd(effects, Eigen::ComputeThinV);
+  const MatrixXd by_number = effect_of_numbers(camera, places, covariance);
+  const Eigen::JacobiSVD<MatrixXd> svd(effects, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const double least = kLeast_px * std::sqrt(static_cast<double>(places.size()));
   for (Index i = 0; i < svd.singularValues().size(); ++i) {
-    if (!(svd.singularValues()[i] > least)) break;
+    const double size = svd.singularValues()[i];
+    if (!(size > least)) break;
     const VectorXd change = root * svd.matrixV().col(i);
     if (!try_push_back(camera.model_errors, moved(camera.model, change))) break;
+    readings.conservativeResize(readings.rows() + 1, Eigen::NoChange);
+    readings.bottomRows<1>() = svd.matrixU().col(i).transpose() * by_number / size;
   }
+  return readings;
 }
 
 }  // namespace dottrack::config

@@ -11,6 +11,7 @@ namespace dottrack::config {
 // ways that `covariance` (S of its file: C A H V [O R [E]]) leaves open, the one that moves
 // pictures most first; those that move them by less than 0.002 px RMS, over the image and the
 // camera's distances, are left out. The camera's model, image size and distances are set before.
-void set_model_errors(const Eigen::MatrixXd& covariance, core::Camera& camera);
+// Returns how to read a change of the model's vectors in these errors: one row each.
+Eigen::MatrixXd set_model_errors(const Eigen::MatrixXd& covariance, core::Camera& camera);
 
 }  // namespace dottrack::config

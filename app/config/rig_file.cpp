@@ -12,6 +12,8 @@
 
 #include "app/config/camera_file.h"
 #include "app/config/complaint.h"
+#include "app/config/joint_covariance.h"
+#include "app/config/model_correlation.h"
 #include "app/config/model_errors.h"
 #include "app/config/rig_rules.h"
 #include "app/config/table_reader.h"
@@ -98,10 +100,12 @@ class RigReader {
   }
 
   void read_rig(const toml::table& table) {
-    TableReader reader(complaint_, table, "[rig]", {"name", "frame_rate_hz"});
+    TableReader reader(complaint_, table, "[rig]", {"name", "frame_rate_hz", "joint_covariance"});
     config_.name = reader.text("name", config_.name);
     config_.frame_rate_hz = reader.number("frame_rate_hz", config_.frame_rate_hz, kFrameRate);
     rate_line_ = reader.line("frame_rate_hz");
+    joint_name_ = reader.text("joint_covariance", "");
+    joint_line_ = reader.line("joint_covariance");
   }
 
   void read_cameras(const toml::table& root) {
@@ -207,6 +211,7 @@ class RigReader {
   // The other files are opened only when the rig file itself is right.
   void load_files() {
     for (std::size_t i = 0; i < config_.cameras.size(); ++i) load_model(i);
+    if (!joint_name_.empty()) load_joint_covariance();
     const double sigma_m = complaint_.empty() ? expected_sigma_m(config_.rig) : 0.0;
     for (NamedTarget& target : targets_) load_dots(target, sigma_m);
   }
@@ -229,7 +234,35 @@ class RigReader {
     camera.width_px = file->dimensions->columns;
     camera.height_px = file->dimensions->rows;
     check_dimensions(camera, path, line);
-    if (file->covariance && complaint_.empty()) set_model_errors(*file->covariance, camera);
+    if (!complaint_.empty()) return;
+    ModelReading& reading = readings_.emplace_back();
+    if (!file->covariance) return;
+    reading.covariance = *file->covariance;
+    reading.of_vectors = set_model_errors(reading.covariance, camera);
+  }
+
+  void load_joint_covariance() {
+    const std::filesystem::path path = beside_rig(joint_name_);
+    const auto text =
+        load_text("joint_covariance", path, joint_line_, "a file that dottrack calibrate wrote");
+    if (!text) return;
+    const Result<JointCovariance> joint = parse_joint_covariance(*text, path.string());
+    if (!joint) return complaint_.add(joint.error());
+    if (!complaint_.empty()) return;
+    std::vector<std::string> names;
+    for (const CameraEntry& camera : config_.cameras) names.push_back(camera.name);
+    const std::vector<std::size_t> strangers =
+        correlate(*joint, names, readings_, config_.rig.model_correlations);
+    if (strangers.size() == names.size()) {
+      return complaint_.add(joint_line_,
+                            in_quotes(path.string()) + " has the covariance of none of the models",
+                            "the file of the calibration that made them");
+    }
+    for (const std::size_t i : strangers) {
+      config_.warnings.push_back(fmt::format(
+          "{}: the model of {} is not of this calibration: its errors are taken as its own",
+          path.string(), names[i]));
+    }
   }
 
   void load_dots(NamedTarget& target, double sigma_m) {
@@ -297,7 +330,10 @@ class RigReader {
   std::vector<std::size_t> model_lines_;
   std::vector<NamedTarget> targets_;
   std::size_t rate_line_ = 1;
-  boost::crc_32_type sum_;  // of the bytes of all files so far
+  std::string joint_name_;
+  std::size_t joint_line_ = 1;
+  std::vector<ModelReading> readings_;  // in the order of the cameras
+  boost::crc_32_type sum_;              // of the bytes of all files so far
 };
 
 }  // namespace

@@ -35,8 +35,8 @@ struct RigConfig {
   std::string target_name = "target";  // ... and this its name
   core::Rig rig;
   UnitConfig unit;
-  // CRC-32 (ISO-HDLC, that of zip) of the rig file, the camera models and the targets' dots, in the
-  // order of the tables: the same files have the same number.
+  // CRC-32 (ISO-HDLC, that of zip) of the rig file, the camera models, their joint covariance and
+  // the targets' dots, in the order of the tables: the same files have the same number.
   std::uint32_t config_hash = 0;
   // What is no error but should be known, a line each.
   std::vector<std::string> warnings;

@@ -7,6 +7,7 @@
 
 #include "app/core/geometry/camera_model.h"
 #include "app/core/limits.h"
+#include "app/core/model_correlations.h"
 #include "hal/base/static_vector.h"
 #include "hal/base/time.h"
 
@@ -69,6 +70,7 @@ struct TrackingLimits {
 
 struct Rig {
   StaticVector<Camera, kMaxCameras> cameras;
+  ModelCorrelations model_correlations;
   Target target;
   MotionLimits vehicle;
   TrackingLimits limits;

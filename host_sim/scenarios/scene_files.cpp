@@ -69,12 +69,23 @@ std::string exposure_toml(const SceneCamera& camera) {
   return fmt::format("exposure_ms = {:.6g}\ngain = {:.6g}\n", 1e3 * camera.exposure_s, camera.gain);
 }
 
-// `models`: files, one a camera.
-std::string rig_toml(const Scene& scene, std::span<const std::string> models) {
+// What all models of a calibration have in common: beside them, and called so in the rig file.
+constexpr std::string_view kJointCovariance = "joint_covariance.csv";
+
+struct ModelFiles {
+  std::vector<std::string> names;  // one a camera
+  bool joint_covariance = false;
+};
+
+std::string rig_toml(const Scene& scene, const ModelFiles& files) {
+  const std::vector<std::string>& models = files.names;
   const DotAppearance& dots = scene.appearance;
   std::string text = fmt::format("[rig]\nname = \"{}\"\nframe_rate_hz = {:.17g}\n", scene.name,
                                  scene.frame_rate_hz);
   if (text.find('.', text.rfind('=')) == std::string::npos) text.insert(text.size() - 1, ".0");
+  if (files.joint_covariance) {
+    text += fmt::format("joint_covariance = \"{}\"\n", kJointCovariance);
+  }
   for (std::size_t i = 0; i < models.size(); ++i) {
     const SceneCamera& camera = scene.cameras[i];
     text += fmt::format(
@@ -106,7 +117,7 @@ std::string target_csv(const TargetLayout& dots) {
 }
 
 Result<void> write_target_and_rig(const Scene& scene, const fs::path& folder,
-                                  std::span<const std::string> models) {
+                                  const ModelFiles& models) {
   if (auto done = write_bytes(folder / "target.csv", target_csv(scene.target)); !done) return done;
   return write_bytes(folder / "rig.toml", rig_toml(scene, models));
 }
@@ -119,7 +130,7 @@ Result<std::string> find_model(const fs::path& folder, const std::string& camera
                           folder.string(), camera, camera));
 }
 
-Result<void> copy_model(const fs::path& from, const fs::path& to) {
+Result<void> copy_over(const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
   if (error) return fail(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
@@ -131,12 +142,17 @@ Result<void> copy_model(const fs::path& from, const fs::path& to) {
 Result<void> write_calibrated_rig(const Scene& scene, const fs::path& folder,
                                   const fs::path& models) {
   if (auto made = make_folder(folder); !made) return made;
-  std::vector<std::string> files;
+  ModelFiles files;
   for (const SceneCamera& camera : scene.cameras) {
     const auto file = find_model(models, camera.name);
     if (!file) return tl::unexpected<Error>(file.error());
-    if (auto done = copy_model(models / *file, folder / *file); !done) return done;
-    files.push_back(*file);
+    if (auto done = copy_over(models / *file, folder / *file); !done) return done;
+    files.names.push_back(*file);
+  }
+  files.joint_covariance = fs::is_regular_file(models / kJointCovariance);
+  if (files.joint_covariance) {
+    const auto done = copy_over(models / kJointCovariance, folder / kJointCovariance);
+    if (!done) return done;
   }
   return write_target_and_rig(scene, folder, files);
 }
@@ -149,12 +165,12 @@ Result<void> write_rig(const Scene& scene, const fs::path& folder,
   if (models.empty()) {
     for (const SceneCamera& camera : scene.cameras) told.push_back(camera.camera);
   }
-  std::vector<std::string> files;
+  ModelFiles files;
   for (std::size_t i = 0; i < told.size(); ++i) {
     const std::string& name = scene.cameras[i].name;
-    files.push_back(model_file(name, told[i].lens()));
+    files.names.push_back(model_file(name, told[i].lens()));
     const std::string text = camera_text(told[i], "simulated ceiling camera " + name);
-    if (auto done = write_bytes(folder / files.back(), text); !done) return done;
+    if (auto done = write_bytes(folder / files.names.back(), text); !done) return done;
   }
   return write_target_and_rig(scene, folder, files);
 }

@@ -39,12 +39,33 @@ struct Sums {
     }
   }
   // Each the same in all rows of its camera or dot.
-  Matrix6d together() const {
+  Matrix6d together(const core::Rig& rig) const {
     Matrix6d sum = Matrix6d::Zero();
     for (const ModelPulls& camera : by_model) {
       for (const Vector6d& pull : camera) sum.noalias() += pull * pull.transpose();
     }
     for (const DotPulls& dot : by_dot) sum.noalias() += dot * dot.transpose();
+    if (!rig.model_correlations.known()) return sum;
+    const Matrix6d half = among_cameras(rig);
+    return sum + half + half.transpose();
+  }
+  // What the models' errors of different cameras have in common, of each pair one way round.
+  Matrix6d among_cameras(const core::Rig& rig) const {
+    Matrix6d sum = Matrix6d::Zero();
+    for (std::size_t a = 0; a < rig.cameras.size(); ++a) {
+      for (std::size_t i = 0; i < rig.cameras[a].model_errors.size(); ++i) {
+        sum.noalias() += by_model[a][i] * of_cameras_before(rig, {a, i}).transpose();
+      }
+    }
+    return sum;
+  }
+  Vector6d of_cameras_before(const core::Rig& rig, const core::ModelErrorIndex& error) const {
+    Vector6d sum = Vector6d::Zero();
+    for (std::size_t b = 0; b < error.camera; ++b) {
+      for (std::size_t j = 0; j < rig.cameras[b].model_errors.size(); ++j) {
+        sum += rig.model_correlations(error, {b, j}) * by_model[b][j];
+      }
+    }
     return sum;
   }
 };
@@ -56,10 +77,10 @@ double variance_factor(double chi2, int freedom) {
   return chi2 > n + kUnlikely * std::sqrt(2.0 * n) ? chi2 / n : 1.0;
 }
 
-void set_covariance(const Sums& sums, PoseFit& result) {
+void set_covariance(const core::Rig& rig, const Sums& sums, PoseFit& result) {
   const Matrix6d inverse = sums.information.inverse();
   const double factor = variance_factor(result.chi2, result.coordinates - kPoseCoordinates);
-  const Matrix6d together = sums.together();
+  const Matrix6d together = sums.together(rig);
   const Matrix6d random = sums.information - sums.within;
   result.systematic = factor * (inverse * together * inverse);
   for (CameraEvidence& camera : result.cameras) camera.normal.scale(1.0 / factor);
@@ -119,7 +140,7 @@ void PoseFitter::report(std::span<const DotObservation> views, const geometry::R
     result.chi2 += row.residual.squaredNorm();
   }
   for (auto& camera : result.cameras) camera.normal.mirror();
-  if (result.coordinates >= kPoseCoordinates) set_covariance(sums, result);
+  if (result.coordinates >= kPoseCoordinates) set_covariance(*rig_, sums, result);
 }
 
 }  // namespace dottrack::estimation

@@ -146,6 +146,53 @@ TEST_F(PoseFitStatistics, TheModelsOwnCovarianceEntersAndDoesNotAverageOut) {
   EXPECT_LT(systematic, 0.99 * total);
 }
 
+// All cameras were placed by a survey that is off itself: their models are wrong by the same, and
+// more views do not help.
+TEST_F(PoseFitStatistics, WhatTheModelsHaveInCommonDoesNotAverageOutOverCameras) {
+  constexpr double kShift_m = 0.001;
+  constexpr double kShared = 0.8;
+  const std::vector<core::Camera> said = acquisition::test::ceiling_cameras();
+  for (core::Camera& camera : room_.rig.cameras) {
+    for (int axis = 0; axis < 3; ++axis) {
+      geometry::Cahv wrong = std::get<geometry::Cahv>(camera.model);
+      wrong.c[axis] += kShift_m;
+      camera.model_errors.push_back(wrong);
+    }
+  }
+  core::ModelCorrelations correlations;
+  for (std::size_t a = 0; a < room_.rig.cameras.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        correlations.set({a, axis}, {b, axis}, kShared);
+      }
+    }
+  }
+  std::normal_distribution<double> normal(0.0, kShift_m);
+  const auto shift = [&] {
+    return Vector3d(normal(room_.random), normal(room_.random), normal(room_.random));
+  };
+  constexpr int kHalls = 4000;
+  double sum = 0.0;
+  double without = 0.0;
+  for (int i = 0; i < kHalls; ++i) {
+    std::vector<core::Camera> true_cameras = said;
+    const Vector3d common = std::sqrt(kShared) * shift();
+    for (core::Camera& camera : true_cameras) {
+      std::get<geometry::Cahv>(camera.model).c += common + std::sqrt(1.0 - kShared) * shift();
+    }
+    const geometry::RigidMotion truth = room_.somewhere();
+    const DotObservations views = room_.see(truth, kSigma_px, true_cameras);
+    room_.rig.model_correlations = correlations;
+    ASSERT_EQ(fit(views, room_.near(truth)), PoseFitStatus::ok);
+    sum += test::nees(fit_.pose, truth);
+    room_.rig.model_correlations = {};
+    ASSERT_EQ(fit(views, room_.near(truth)), PoseFitStatus::ok);
+    without += test::nees(fit_.pose, truth);
+  }
+  EXPECT_NEAR(sum / kHalls, 6.0, 4.0 * std::sqrt(12.0 / kHalls));
+  EXPECT_GT(without / kHalls, 9.0);
+}
+
 // Every target is put together a little otherwise than its file says, by as much as it says.
 TEST_F(PoseFitStatistics, WhereTheDotsMayBeEntersAndDoesNotAverageOut) {
   constexpr double kOff_m = 0.0005;

@@ -96,10 +96,13 @@ struct SuspectDot {
 
 struct Calibration {
   std::vector<CameraCalibration> cameras;  // in the order of the views
-  std::vector<AdjustedPlace> dots;         // in the order of the survey
-  std::vector<SuspectDot> suspects;        // the worst first
-  double survey_scale = 1.0;               // estimated sigma of the survey over what was claimed
-  double holdout_rms_px = 0.0;             // of all cameras
+  // Of all cameras' vectors together, camera after camera: their own covariances and how their
+  // errors go together.
+  Eigen::MatrixXd joint_covariance;
+  std::vector<AdjustedPlace> dots;   // in the order of the survey
+  std::vector<SuspectDot> suspects;  // the worst first
+  double survey_scale = 1.0;         // estimated sigma of the survey over what was claimed
+  double holdout_rms_px = 0.0;       // of all cameras
   double holdout_rms_m = 0.0;    // of left-out dots triangulated; 0: none is seen by two cameras
   std::size_t holdout_dots = 0;  // that were triangulated
   std::vector<std::string> remarks;

@@ -57,6 +57,7 @@ class Elimination {
     if (!inverse_.allFinite()) return std::nullopt;
     Information information;
     for (std::size_t i = 0; i < a_.cameras.size(); ++i) information.cameras.push_back(block(i, i));
+    information.together = together();
     information.off_lens.assign(a_.cameras.size(), Vector2d::Zero());
     for (int term = 0; term < kRadialTerms; ++term) judge_lens(term, information);
     information.views.resize(a_.views.size());
@@ -113,6 +114,18 @@ class Elimination {
       for (int j = 0; j < kNumbers; ++j) {
         const int c = layout_.column[column][static_cast<std::size_t>(j)];
         if (c >= 0) out(i, j) = inverse_(r, c);
+      }
+    }
+    return out;
+  }
+
+  MatrixXd together() const {
+    const std::size_t count = a_.cameras.size();
+    MatrixXd out(static_cast<Index>(count) * kNumbers, static_cast<Index>(count) * kNumbers);
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j < count; ++j) {
+        out.block<kNumbers, kNumbers>(static_cast<Index>(i) * kNumbers,
+                                      static_cast<Index>(j) * kNumbers) = block(i, j);
       }
     }
     return out;

@@ -25,6 +25,8 @@ struct Judged {
 struct Information {
   // Of the numbers of each camera, its zero rows those that are not free.
   std::vector<Eigen::Matrix<double, kNumbers, kNumbers>> cameras;
+  // Of all cameras' numbers together, camera after camera: all rest on the same survey.
+  Eigen::MatrixXd together;
   std::vector<Eigen::Matrix3d> dots;  // of their positions, square metres
   // Variances of how far each camera's radial terms are from the common lens's; zero where they
   // are on their own.

@@ -141,6 +141,7 @@ class Teller {
     for (std::size_t i = 0; i < views_.size(); ++i) out_.cameras.push_back(camera(i));
     tell_residuals();
     for (CameraCalibration& c : out_.cameras) finish(c);
+    tell_joint_covariance();
     tell_hold_out();
     return std::move(out_);
   }
@@ -178,6 +179,21 @@ class Teller {
     out.sigmas = sigmas_of(c.camera, covariance);
     remark_on_numbers(c, covariance, out.remarks);
     return out;
+  }
+
+  void tell_joint_covariance() {
+    const auto count = static_cast<Eigen::Index>(f_.adjustment.cameras.size());
+    MatrixXd by_numbers(0, count * kNumbers);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const MatrixXd jacobian =
+          vectors_jacobian(f_.adjustment.cameras[static_cast<std::size_t>(i)].camera);
+      const Eigen::Index first = by_numbers.rows();
+      by_numbers.conservativeResize(first + jacobian.rows(), Eigen::NoChange);
+      by_numbers.bottomRows(jacobian.rows()).setZero();
+      by_numbers.block(first, i * kNumbers, jacobian.rows(), kNumbers) = jacobian;
+    }
+    const MatrixXd joint = by_numbers * f_.information.together * by_numbers.transpose();
+    out_.joint_covariance = 0.5 * (joint + joint.transpose());
   }
 
   Vector2d off(const View& view, const Vector3d& point, bool& seen) const {

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "app/config/camera_file.h"
+#include "app/config/joint_covariance.h"
 
 namespace dottrack::calibrate {
 namespace {
@@ -65,6 +66,17 @@ std::string camera_table(const CameraCalibration& c, const Calibration& calibrat
   return text;
 }
 
+config::JointCovariance joint_of(const Calibration& calibration) {
+  config::JointCovariance joint;
+  Eigen::Index first = 0;
+  for (const CameraCalibration& c : calibration.cameras) {
+    joint.cameras.push_back({c.name, first, c.covariance.rows()});
+    first += c.covariance.rows();
+  }
+  joint.covariance = calibration.joint_covariance;
+  return joint;
+}
+
 std::string quoted(const std::string& name) {
   std::string out;
   for (const char ch : name) {
@@ -90,7 +102,8 @@ Result<std::vector<RigFile>> rig_files(const Calibration& calibration, const Rig
   std::string rig =
       request.target ? "# Written by dottrack calibrate.\n"
                      : "# Written by dottrack calibrate. Not complete: it has no [target] yet.\n";
-  rig += fmt::format("[rig]\nname = \"{}\"\n", quoted(request.name));
+  rig += fmt::format("[rig]\nname = \"{}\"\njoint_covariance = \"{}\"\n", quoted(request.name),
+                     config::kJointCovarianceFile);
   for (const CameraCalibration& c : calibration.cameras) {
     config::CameraFile file;
     file.model = c.model;
@@ -101,6 +114,8 @@ Result<std::vector<RigFile>> rig_files(const Calibration& calibration, const Rig
     rig += camera_table(c, calibration, request);
   }
   rig += target_table(request.target);
+  files.push_back(
+      {config::kJointCovarianceFile, config::write_joint_covariance(joint_of(calibration))});
   files.push_back({"rig.toml", rig});
   if (!request.target) return files;
   std::ifstream in(*request.target, std::ios::binary);

@@ -153,13 +153,15 @@ TEST_F(RigFilesTest, MakeARigThatLoads) {
   EXPECT_EQ(rig->name, "hall");
   ASSERT_EQ(rig->cameras.size(), 4U);
   EXPECT_EQ(rig->cameras[0].name, "north_west");
+  EXPECT_TRUE(rig->warnings.empty());
+  EXPECT_TRUE(rig->rig.model_correlations.known());
 }
 
 TEST_F(RigFilesTest, KeepModelsAndCovariancesExactly) {
   const Calibration& calibration = calibrated().calibration;
   const auto files = rig_files(calibration, {});
   ASSERT_TRUE(files);
-  ASSERT_EQ(files->size(), 5U);
+  ASSERT_EQ(files->size(), 6U);
   for (std::size_t i = 0; i < 4; ++i) {
     const auto read = config::parse_camera_text((*files)[i].text, (*files)[i].name);
     ASSERT_TRUE(read) << read.error().message;
