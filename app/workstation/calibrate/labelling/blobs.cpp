@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "app/core/image/dot_centre.h"
+#include "app/core/image/dot_fit.h"
 #include "app/core/image/identify.h"
 #include "app/workstation/calibrate/labelling/disc_fit.h"
 
@@ -88,6 +89,8 @@ double centre_sigma_px(double noise, double contrast_dn, double diameter_px) {
   return std::max(2.0 * bound, kFloor_px);
 }
 
+constexpr double kLeastSigma_px = 0.02;
+
 class Finder {
  public:
   Finder(const ImageView& image, const BlobOptions& options)
@@ -147,12 +150,24 @@ class Finder {
     blob.contrast_dn = region.core_contrast_dn + options_.min_contrast_dn;
     blob.sigma_px =
         centre_sigma_px(noise_dn_, blob.contrast_dn, region.semi_major_px + region.semi_minor_px);
-    refine(blob);
+    if (!take_outline(region, blob)) refine(blob);
     return blob;
   }
 
+  // By the outline that tracking fits, if the dot and its surround are as even as that takes.
+  bool take_outline(const image::Region& region, Blob& blob) const {
+    const image::DotFit fit = image::fit_dot(image_, region, nullptr);
+    if (fit.flaw != image::DotFlaw::none) return false;
+    blob.pixel = fit.centre_px;
+    blob.semi_major_px = fit.semi_major_px;
+    blob.semi_minor_px = fit.semi_minor_px;
+    blob.angle_rad = fit.angle_rad;
+    blob.contrast_dn = std::abs(fit.contrast_dn);
+    blob.sigma_px = std::max(std::sqrt(0.5 * fit.covariance_px2.trace()), kLeastSigma_px);
+    return true;
+  }
+
   void refine(Blob& blob) const {
-    constexpr double kLeastSigma_px = 0.02;
     const double towards = options_.polarity == core::Polarity::bright ? 1.0 : -1.0;
     const auto disc = fit_disc(image_, {blob.pixel, blob.semi_major_px, blob.semi_minor_px,
                                         blob.angle_rad, towards * blob.contrast_dn, 0.0});
