@@ -34,7 +34,7 @@ TEST(RealPlatePixels, ReachesThePlateInBothDirections) {
     const HalfFigures figures = figures_of(*dots, observed->views, *calibration, test);
     EXPECT_GE(figures.observations, 620U);
     EXPECT_GE(figures.triangulated, 210U);
-    EXPECT_LT(figures.rms_px, 0.30);
+    EXPECT_LT(figures.rms_px, 0.26);
     EXPECT_LT(figures.rms_m, 0.053e-3);
   }
 }
