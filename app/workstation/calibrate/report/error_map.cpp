@@ -64,6 +64,63 @@ bool derivative(const CameraCalibration& camera, const Vector3d& point_m, int nu
   return true;
 }
 
+using ByNumber = Eigen::Matrix<double, 2, Eigen::Dynamic>;
+
+// d(pixel) / d(the model's vectors). False where the camera does not see the point.
+bool derivatives(const CameraCalibration& camera, const Vector3d& point_m, ByNumber& by_number,
+                 geometry::ProjectionJacobian& by_point) {
+  Vector2d pixel;
+  if (!sees(camera, point_m, pixel, by_point)) return false;
+  const int count = static_cast<int>(camera.covariance.rows());
+  by_number.resize(2, count);
+  for (int i = 0; i < count; ++i) {
+    Vector2d column;
+    if (!derivative(camera, point_m, i, column)) return false;
+    by_number.col(i) = column;
+  }
+  return true;
+}
+
+// A point triangulated from all cameras that see it.
+class Triangulated {
+ public:
+  explicit Triangulated(const Calibration& calibration)
+      : joint_(calibration.joint_covariance), pulls_(Pulls::Zero(3, joint_.rows())) {}
+
+  // `first`: row of the camera's vectors in the joint covariance.
+  void add(const CameraCalibration& camera, Eigen::Index first, const Vector3d& point_m) {
+    ByNumber by_number;
+    geometry::ProjectionJacobian by_point;
+    if (!derivatives(camera, point_m, by_number, by_point)) return;
+    const double noise_px2 = camera.image_sigma_px * camera.image_sigma_px;
+    Eigen::Matrix2d covariance = by_number * camera.covariance * by_number.transpose();
+    covariance.diagonal().array() += noise_px2;
+    const Eigen::Matrix<double, 3, 2> weighed = by_point.transpose() * covariance.inverse();
+    information_ += weighed * by_point;
+    noise_ += noise_px2 * weighed * weighed.transpose();
+    pulls_.middleCols(first, by_number.cols()) = weighed * by_number;
+    ++cameras_;
+  }
+
+  std::size_t cameras() const { return cameras_; }
+  // Root of the expected square; NaN from fewer than two cameras.
+  double error_m() const {
+    if (cameras_ < 2) return std::numeric_limits<double>::quiet_NaN();
+    const Eigen::Matrix3d inverse = information_.inverse();
+    const Eigen::Matrix3d together = noise_ + pulls_ * joint_ * pulls_.transpose();
+    return std::sqrt((inverse * together * inverse).trace());
+  }
+
+ private:
+  using Pulls = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+
+  const Eigen::MatrixXd& joint_;
+  Pulls pulls_;
+  Eigen::Matrix3d information_ = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d noise_ = Eigen::Matrix3d::Zero();
+  std::size_t cameras_ = 0;
+};
+
 }  // namespace
 
 Vector3d ErrorMap::middle(std::size_t column, std::size_t row) const {
@@ -89,15 +146,8 @@ double ErrorMap::median_m() const {
 
 bool model_covariance(const CameraCalibration& camera, const Vector3d& point_m,
                       Eigen::Matrix2d& covariance_px2, geometry::ProjectionJacobian& by_point) {
-  Vector2d pixel;
-  if (!sees(camera, point_m, pixel, by_point)) return false;
-  const int count = static_cast<int>(camera.covariance.rows());
-  Eigen::Matrix<double, 2, Eigen::Dynamic> by_number(2, count);
-  for (int i = 0; i < count; ++i) {
-    Vector2d column;
-    if (!derivative(camera, point_m, i, column)) return false;
-    by_number.col(i) = column;
-  }
+  ByNumber by_number;
+  if (!derivatives(camera, point_m, by_number, by_point)) return false;
   covariance_px2 = by_number * camera.covariance * by_number.transpose();
   return true;
 }
@@ -124,20 +174,14 @@ ErrorMap error_map(const Calibration& calibration, std::span<const SurveyedDot> 
   map.rows = cells(high.y() - low.y());
   for (std::size_t row = 0; row < map.rows; ++row) {
     for (std::size_t column = 0; column < map.columns; ++column) {
-      Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-      std::size_t count = 0;
+      Triangulated point(calibration);
+      Eigen::Index first = 0;
       for (const CameraCalibration& camera : calibration.cameras) {
-        Eigen::Matrix2d covariance;
-        geometry::ProjectionJacobian by_point;
-        if (!model_covariance(camera, map.middle(column, row), covariance, by_point)) continue;
-        covariance.diagonal().array() += camera.image_sigma_px * camera.image_sigma_px;
-        information += by_point.transpose() * covariance.inverse() * by_point;
-        ++count;
+        point.add(camera, first, map.middle(column, row));
+        first += camera.covariance.rows();
       }
-      map.cameras.push_back(count);
-      const double square = count >= 2 ? information.inverse().trace() : -1.0;
-      map.error_m.push_back(square > 0.0 ? std::sqrt(square)
-                                         : std::numeric_limits<double>::quiet_NaN());
+      map.cameras.push_back(point.cameras());
+      map.error_m.push_back(point.error_m());
     }
   }
   return map;

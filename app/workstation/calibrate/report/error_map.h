@@ -30,9 +30,8 @@ struct ErrorMap {
 bool model_covariance(const CameraCalibration& camera, const Eigen::Vector3d& point_m,
                       Eigen::Matrix2d& covariance_px2, geometry::ProjectionJacobian& by_point);
 
-// From the noise of the images and the uncertainty of the models. Errors that all cameras have in
-// common, those of the survey as a whole, are not in it. Over the surveyed dots' extent, at
-// `height_m`; nothing hides anything.
+// From the noise of the images and the uncertainty of the models, with what these have in common
+// from their survey. Over the surveyed dots' extent, at `height_m`; nothing hides anything.
 ErrorMap error_map(const Calibration& calibration, std::span<const SurveyedDot> dots,
                    double height_m);
 

@@ -135,8 +135,8 @@ std::string map_part(const Calibration& calibration, std::span<const SurveyedDot
   return fmt::format(
       "<p>A dot {:.3g} m high, seen by all cameras that have it in their image: median {}, worst "
       "{}. "
-      "Noise of the images and uncertainty of the models; what the survey as a whole is off comes "
-      "on top. Grey: fewer than two cameras.</p>\n{}",
+      "Noise of the images and uncertainty of the models, with what they have in common from the "
+      "survey. Grey: fewer than two cameras.</p>\n{}",
       height_m, length_words(map.median_m()), length_words(map.worst_m()),
       map_drawing(map, calibration));
 }

@@ -7,10 +7,12 @@
 #include <Eigen/LU>
 #include <memory>
 #include <random>
+#include <vector>
 
 #include "app/config/rig_file.h"
 #include "app/core/estimation/pose_fit.h"
 #include "app/workstation/calibrate/fit/calibration.h"
+#include "app/workstation/calibrate/report/error_map.h"
 #include "app/workstation/calibrate/report/rig_files.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/workstation/calibrate/synthetic_hall.h"
@@ -77,6 +79,48 @@ class CalibratedPose : public testing::Test {
     return views;
   }
 
+  struct SeenPlace {
+    const CameraCalibration* camera;
+    Vector2d pixel;
+    Eigen::Matrix2d weight;
+  };
+
+  // A place as noisy as the calibration's dots were.
+  std::vector<SeenPlace> look(const test::Hall& hall, const Calibration& calibration,
+                              const Vector3d& place) {
+    std::normal_distribution<double> noise(0.0, test::HallOptions().image_sigma_px);
+    std::vector<SeenPlace> views;
+    for (std::size_t i = 0; i < hall.truths.size(); ++i) {
+      const CameraCalibration& camera = calibration.cameras[i];
+      Vector2d pixel;
+      geometry::ProjectionJacobian by_point;
+      Eigen::Matrix2d covariance;
+      if (!model_covariance(camera, place, covariance, by_point)) continue;
+      if (project(hall.truths[i], place, pixel) != geometry::OpticsStatus::ok) continue;
+      pixel += Vector2d(noise(random_), noise(random_));
+      covariance.diagonal().array() += camera.image_sigma_px * camera.image_sigma_px;
+      views.push_back({&camera, pixel, covariance.inverse()});
+    }
+    return views;
+  }
+
+  // Least squares from the place itself.
+  static Vector3d triangulated(const std::vector<SeenPlace>& views, Vector3d place) {
+    for (int step = 0; step < 4; ++step) {
+      Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+      Vector3d pull = Vector3d::Zero();
+      for (const SeenPlace& view : views) {
+        Vector2d shown;
+        geometry::ProjectionJacobian by_point;
+        EXPECT_EQ(project(view.camera->model, place, shown, &by_point), geometry::OpticsStatus::ok);
+        information += by_point.transpose() * view.weight * by_point;
+        pull += by_point.transpose() * view.weight * (view.pixel - shown);
+      }
+      place += information.inverse() * pull;
+    }
+    return place;
+  }
+
   static double normalised_square(const core::Rig& rig, const DotObservations& views,
                                   const geometry::RigidMotion& truth) {
     estimation::PoseFitter fitter(rig);
@@ -90,6 +134,36 @@ class CalibratedPose : public testing::Test {
 
   std::mt19937 random_{17};
 };
+
+// Places triangulated by the calibrated models, against the report's map.
+TEST_F(CalibratedPose, TheReportsMapIsTrue) {
+  double sum = 0.0;  // of squared errors over the expected ones
+  int places = 0;
+  test::HallOptions options;
+  CalibrationOptions how;
+  how.kind = ModelKind::cahvor;
+  how.folds = 2;
+  for (options.seed = 1; options.seed <= kHalls; ++options.seed) {
+    const test::Hall hall = test::make_hall(options);
+    const auto calibration = calibrate(hall.dots, hall.views, how);
+    ASSERT_TRUE(calibration) << calibration.error().message;
+    const ErrorMap map = error_map(*calibration, hall.dots, 0.4);
+    for (std::size_t row = 2; row < map.rows; row += 5) {
+      for (std::size_t column = 2; column < map.columns; column += 5) {
+        const double expected_m = map.error_m[row * map.columns + column];
+        if (map.cameras[row * map.columns + column] < 3) continue;
+        const Vector3d place = map.middle(column, row);
+        const Vector3d found = triangulated(look(hall, *calibration, place), place);
+        sum += (found - place).squaredNorm() / (expected_m * expected_m);
+        ++places;
+      }
+    }
+  }
+  RecordProperty("ratio", std::to_string(sum / places));
+  EXPECT_GT(places, 200);
+  EXPECT_GT(sum / places, 0.7);
+  EXPECT_LT(sum / places, 1.3);
+}
 
 // Poses of one hall share its calibration's errors: the mean over halls is known to about 1.
 TEST_F(CalibratedPose, IsAsGoodAsItsCovarianceSays) {
