@@ -59,6 +59,7 @@ bool find_level(const ImageView& patch, const PatchRows& rows, RingLevel& level)
   int held = 0;
   int begin = histogram.darkest;
   for (int end = histogram.darkest; end <= histogram.brightest; ++end) {
+    if (histogram.of[static_cast<std::size_t>(end)] == 0) continue;  // only longer than before
     held += histogram.of[static_cast<std::size_t>(end)];
     while (held - histogram.of[static_cast<std::size_t>(begin)] >= wanted) {
       held -= histogram.of[static_cast<std::size_t>(begin)];
