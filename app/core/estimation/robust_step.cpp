@@ -62,13 +62,14 @@ bool settle(std::span<const ViewRow> rows, Vector6d& step, Flags& used) {
 }  // namespace
 
 void NormalEquations::add(const ViewRow& row, double weight) {
-  const Matrix26d& j = row.jacobian;
+  const Vector6d along_x = row.jacobian.row(0).transpose();
+  const Vector6d along_y = row.jacobian.row(1).transpose();
+  const Vector6d x = weight * along_x;
+  const Vector6d y = weight * along_y;
   for (int column = 0; column < 6; ++column) {
-    const double x = weight * j(0, column);
-    const double y = weight * j(1, column);
-    for (int i = column; i < 6; ++i) information(i, column) += x * j(0, i) + y * j(1, i);
-    gradient[column] += x * row.residual.x() + y * row.residual.y();
+    information.col(column) += x[column] * along_x + y[column] * along_y;
   }
+  gradient += x * row.residual.x() + y * row.residual.y();
 }
 
 bool test_views(std::span<const ViewRow> rows, const Vector6d& step, Flags& used) {

@@ -13,7 +13,8 @@ struct NormalEquations {
   Matrix6d information = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
 
-  // Of the information only the lower triangle, which is all that solving looks at.
+  // Solving looks at the information's lower triangle alone; until it is mirrored, the upper one
+  // differs by roundings.
   void add(const ViewRow& row, double weight);
   void mirror() {
     information.triangularView<Eigen::StrictlyUpper>() = information.transpose().eval();

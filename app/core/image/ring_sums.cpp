@@ -210,18 +210,22 @@ class StripSums {
 void drop(const ImageView& patch, const RingMask& mask, const IntegerPlane& plane, GreySums& ring) {
   const Lines lines = lines_of(plane, patch);
   const auto rows = static_cast<std::size_t>(patch.height_px);
+  constexpr auto kStripLanes = static_cast<std::size_t>(kStep);
+  std::array<std::int16_t, kPatchRows_px * kStripLanes> far;
   for (int k = 0; k < patch.width_px; k += kStep) {
     const Off off(patch, lines, plane.limit, k);
-    const auto far_at = [&](std::size_t y) {
-      return hn::And(off.at(y), hn::LoadU(kLanes, mask.of.data() + mask_at(y, k)));
-    };
     Vector any = hn::Zero(kLanes);
-    for (std::size_t y = 0; y < rows; ++y) any = hn::Or(any, far_at(y));
+    for (std::size_t y = 0; y < rows; ++y) {
+      const Vector is_far = hn::And(off.at(y), hn::LoadU(kLanes, mask.of.data() + mask_at(y, k)));
+      hn::StoreU(is_far, kLanes, far.data() + y * kStripLanes);
+      any = hn::Or(any, is_far);
+    }
     if (hn::AllFalse(kLanes, hn::MaskFromVec(any))) continue;
     StripSums sums;
     Vector row = hn::Zero(kLanes);
     for (std::size_t y = 0; y < rows; ++y) {
-      sums.add(far_at(y), load(patch.row(static_cast<int>(y)) + k), row);
+      const Vector is_far = hn::LoadU(kLanes, far.data() + y * kStripLanes);
+      sums.add(is_far, load(patch.row(static_cast<int>(y)) + k), row);
       row = hn::Add(row, all(1));
     }
     sums.take_from(ring, k);

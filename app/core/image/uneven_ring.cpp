@@ -26,12 +26,14 @@ Row bits_of(const Spans& spans, int y) {
 
 // The eight next to each.
 PixelMap neighbours(const PixelMap& map, int rows) {
+  const auto sides = [](Row row) { return (row << 1U) | (row >> 1U); };
   PixelMap next;
+  Row above = 0;
   for (int y = 0; y < rows; ++y) {
-    const auto sides = [&](int at) { return (map[index(at)] << 1U) | (map[index(at)] >> 1U); };
-    next[index(y)] = sides(y);
-    if (y > 0) next[index(y)] |= sides(y - 1) | map[index(y - 1)];
-    if (y + 1 < rows) next[index(y)] |= sides(y + 1) | map[index(y + 1)];
+    const Row here = map[index(y)];
+    const Row below = y + 1 < rows ? map[index(y + 1)] : 0;
+    next[index(y)] = sides(above | here | below) | above | below;
+    above = here;
   }
   return next;
 }
