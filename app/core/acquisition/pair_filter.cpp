@@ -59,8 +59,10 @@ HWY_INLINE void order(std::uint16_t& a, std::uint16_t& b) {
 
 constexpr std::size_t kLeastSorted = 4;
 
-// Most rows have few hits: these are sorted without branches. What is beyond them is overwritten.
+// Most rows have one hit or none, and some a few: these are sorted without branches. What is beyond
+// them is overwritten.
 HWY_INLINE void sort_hits(std::uint16_t* hits, std::size_t n) {
+  if (n < 2) return;
   if (n > kLeastSorted) return sort_many(hits, n);
   for (std::size_t k = n; k < n + kLeastSorted; ++k) hits[k] = 0xFFFF;
   order(hits[0], hits[1]);
