@@ -114,10 +114,11 @@ void put(Boxes& boxes, std::size_t i, const Sighting& sighting) {
 
 void fill(RayArrays& rays, const core::Camera& camera, const estimation::Sightings& sightings,
           double max_residual_px) {
-  rays.size = sightings.size();
-  rays.centre_m = geometry::centre(camera.model);
-  rays.direction_sum.setZero();
+  const Eigen::Vector3d centre_m = geometry::centre(camera.model);
+  Eigen::Vector3d direction_sum = Eigen::Vector3d::Zero();
   double offset2 = 0.0;
+  rays.size = sightings.size();
+  rays.centre_m = centre_m;
   Boxes boxes;
   for (std::size_t from = 0; from < rays.size; from += Boxes::kCapacity) {
     const std::size_t size = std::min(Boxes::kCapacity, rays.size - from);
@@ -125,8 +126,8 @@ void fill(RayArrays& rays, const core::Camera& camera, const estimation::Sightin
       const std::size_t i = from + k;
       const Sighting& sighting = sightings[i];
       const Eigen::Vector3d& direction = sighting.line.ray.direction;
-      rays.direction_sum += direction;
-      offset2 = std::max(offset2, (sighting.line.ray.origin - rays.centre_m).squaredNorm());
+      direction_sum += direction;
+      offset2 = std::max(offset2, (sighting.line.ray.origin - centre_m).squaredNorm());
       rays.x[i] = static_cast<float>(direction.x());
       rays.y[i] = static_cast<float>(direction.y());
       rays.z[i] = static_cast<float>(direction.z());
@@ -140,6 +141,7 @@ void fill(RayArrays& rays, const core::Camera& camera, const estimation::Sightin
       rays.box_tangent[from + k] = static_cast<float>(boxes.tangent[k]);
     }
   }
+  rays.direction_sum = direction_sum;
   rays.origin_offset_m = std::sqrt(offset2);
 }
 
