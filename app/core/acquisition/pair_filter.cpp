@@ -20,8 +20,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Lanes = hn::CappedTag<float, kSpareLanes>;
 
 // Writes the positions of b's rays in the window that suit a's ray i, and returns how many.
-std::size_t look(const PencilRays& a, std::size_t i, const SortedRays& b,
-                 const SortedRays::Window& window, std::uint16_t* hits) {
+HWY_INLINE std::size_t look(const PencilRays& a, std::size_t i, const SortedRays& b,
+                            const SortedRays::Window& window, std::uint16_t* hits) {
   const Lanes lanes;
   const auto angle = hn::Set(lanes, a.angle[i]);
   const auto half_width = hn::Set(lanes, a.half_width[i]);
@@ -85,6 +85,7 @@ std::size_t look_in_rows(const PencilRays& a, const SortedRays& b, std::size_t f
     row.first_hit = static_cast<std::uint16_t>(hits);
     if (a.is_stray(i)) continue;
     const SortedRays::Window window = b.window(a.angle[i], a.half_width[i]);
+    if (window.first == window.last) continue;
     const std::size_t found = look(a, i, b, window, room.hits.data() + hits);
     sort_hits(room.hits.data() + hits, found);
     hits += found;

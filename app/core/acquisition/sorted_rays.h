@@ -36,8 +36,8 @@ struct SortedRays {
   static constexpr std::size_t kBuckets = 512;
   std::size_t bucket(float at) const {
     const float scaled = (at - least_angle) * buckets_per_rad;
-    return static_cast<std::size_t>(
-        static_cast<int>(std::clamp(scaled, 0.0F, static_cast<float>(kBuckets - 1))));
+    constexpr auto kLast = static_cast<float>(kBuckets - 1);  // std::clamp would branch
+    return static_cast<std::size_t>(static_cast<int>(std::min(std::max(scaled, 0.0F), kLast)));
   }
   std::array<std::uint16_t, kBuckets + 1> start{};
   std::array<std::uint16_t, core::kMaxRegions> bucket_of{};
