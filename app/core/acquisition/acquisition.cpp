@@ -85,6 +85,8 @@ Acquisition::Acquisition(const core::Rig& rig, std::span<const geometry::Optics>
       shape_(make_target_shape(rig.target)),
       memory_(std::make_unique<Memory>()) {
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) memory_->views[i].camera = &rig.cameras[i];
+  // While nothing is seen: what the cameras share is measured now and not in the first search.
+  memory_->search.start({memory_->views.data(), rig.cameras.size()}, 0.0);
 }
 
 Acquisition::~Acquisition() = default;

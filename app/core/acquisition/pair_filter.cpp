@@ -20,8 +20,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Lanes = hn::CappedTag<float, kSpareLanes>;
 
 // Writes the positions of b's rays in the window that suit a's ray i, and returns how many.
-std::size_t look(const PencilRays& a, std::size_t i, const SortedRays& b,
-                 const SortedRays::Window& window, std::uint16_t* hits) {
+HWY_INLINE std::size_t look(const PencilRays& a, std::size_t i, const SortedRays& b,
+                            const SortedRays::Window& window, std::uint16_t* hits) {
   const Lanes lanes;
   const auto angle = hn::Set(lanes, a.angle[i]);
   const auto half_width = hn::Set(lanes, a.half_width[i]);
@@ -59,8 +59,10 @@ HWY_INLINE void order(std::uint16_t& a, std::uint16_t& b) {
 
 constexpr std::size_t kLeastSorted = 4;
 
-// Most rows have few hits: these are sorted without branches. What is beyond them is overwritten.
+// Most rows have one hit or none, and some a few: these are sorted without branches. What is beyond
+// them is overwritten.
 HWY_INLINE void sort_hits(std::uint16_t* hits, std::size_t n) {
+  if (n < 2) return;
   if (n > kLeastSorted) return sort_many(hits, n);
   for (std::size_t k = n; k < n + kLeastSorted; ++k) hits[k] = 0xFFFF;
   order(hits[0], hits[1]);
@@ -83,6 +85,7 @@ std::size_t look_in_rows(const PencilRays& a, const SortedRays& b, std::size_t f
     row.first_hit = static_cast<std::uint16_t>(hits);
     if (a.is_stray(i)) continue;
     const SortedRays::Window window = b.window(a.angle[i], a.half_width[i]);
+    if (window.first == window.last) continue;
     const std::size_t found = look(a, i, b, window, room.hits.data() + hits);
     sort_hits(room.hits.data() + hits, found);
     hits += found;

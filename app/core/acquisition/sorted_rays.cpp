@@ -4,19 +4,6 @@
 
 namespace dottrack::acquisition {
 
-int SortedRays::bucket(float at) const {
-  const float scaled = (at - least_angle) * buckets_per_rad;
-  return static_cast<int>(std::clamp(scaled, 0.0F, static_cast<float>(kBuckets - 1)));
-}
-
-SortedRays::Window SortedRays::window(float around, float half_width_rad) const {
-  const float from = around - half_width_rad;
-  const float to = around + half_width_rad;
-  if (!(from <= to) || to < least_angle || from > greatest_angle) return {};
-  return {start[static_cast<std::size_t>(bucket(from))],
-          start[static_cast<std::size_t>(bucket(to)) + 1]};
-}
-
 void sort(const PencilRays& rays, std::size_t size, SortedRays& sorted) {
   constexpr std::size_t kBuckets = SortedRays::kBuckets;
   sorted.size = size - rays.stray.size();

@@ -1,6 +1,7 @@
 #pragma once
 // One camera's rays in a pencil, in the order of their angle: those near an angle lie together.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +18,12 @@ struct SortedRays {
   };
 
   // All rays within half_width of the angle; some others come along, none is missed.
-  Window window(float around, float half_width) const;
+  Window window(float around, float half_width_rad) const {
+    const float from = around - half_width_rad;
+    const float to = around + half_width_rad;
+    if (!(from <= to) || to < least_angle || from > greatest_angle) return {};
+    return {start[bucket(from)], start[bucket(to) + 1]};
+  }
 
   alignas(32) FloatArray angle{};
   alignas(32) FloatArray cotangent{};
@@ -28,7 +34,11 @@ struct SortedRays {
   std::size_t size = 0;
 
   static constexpr std::size_t kBuckets = 512;
-  int bucket(float at) const;
+  std::size_t bucket(float at) const {
+    const float scaled = (at - least_angle) * buckets_per_rad;
+    constexpr auto kLast = static_cast<float>(kBuckets - 1);  // std::clamp would branch
+    return static_cast<std::size_t>(static_cast<int>(std::min(std::max(scaled, 0.0F), kLast)));
+  }
   std::array<std::uint16_t, kBuckets + 1> start{};
   std::array<std::uint16_t, core::kMaxRegions> bucket_of{};
   float least_angle = 0.0F;

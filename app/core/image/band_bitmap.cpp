@@ -21,11 +21,13 @@ namespace HWY_NAMESPACE {
 constexpr int kRowsAhead = 2;
 
 // What it takes to be in band, from the cheapest case to the general one.
-struct AtLeast {
+struct AtLeast {  // v + (255 - lo) + 1 >= 256, as the sign of half of it
   std::uint8_t lo;
   template <class D, class V = hn::Vec<D>>
   HWY_INLINE hn::Mask<D> operator()(D d, V v) const {
-    return hn::Eq(hn::SaturatedSub(hn::Set(d, lo), v), hn::Zero(d));
+    const hn::RebindToSigned<D> of_signs;
+    const auto half = hn::AverageRound(v, hn::Set(d, static_cast<std::uint8_t>(255 - lo)));
+    return hn::RebindMask(d, hn::Lt(hn::BitCast(of_signs, half), hn::Zero(of_signs)));
   }
 };
 

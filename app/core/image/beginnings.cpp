@@ -41,7 +41,7 @@ HWY_INLINE unsigned look_at_group(const std::uint64_t* group, std::uint64_t* con
     const auto begins = hn::Or(hn::ShiftRight<1>(behind), hn::And(carry, last_bit));
     hn::StoreU(begins, kWords, beginnings + i);
     const auto none = hn::Eq(begins, hn::Zero(kWords));
-    some |= static_cast<unsigned>(~bits_of(kWords, none) & ((1U << MaxLanes(kWords)) - 1)) << i;
+    some |= static_cast<unsigned>(bits_of(kWords, none) ^ ((1U << MaxLanes(kWords)) - 1)) << i;
   }
   return some;
 }
@@ -49,7 +49,8 @@ HWY_INLINE unsigned look_at_group(const std::uint64_t* group, std::uint64_t* con
 // Whether a word has a beginning cannot be predicted, so
 // there is no branch for it.
 void find(const Bitmap& bitmap, std::span<const PixelKey> groups, std::uint64_t* connected,
-          LinesAhead& ahead, Beginnings& found) {
+          LinesAhead& lines, Beginnings& found) {
+  LinesAhead ahead = lines;  // nothing else that is written can be meant by it
   std::size_t words = 0;
   std::size_t at = 0;
   for (const PixelKey group : groups) {
@@ -66,6 +67,7 @@ void find(const Bitmap& bitmap, std::span<const PixelKey> groups, std::uint64_t*
                          static_cast<PixelKey>(i % Bitmap::kGroupWords * Bitmap::kWordBits);
     found.size += write_positions(found.words[i], key, found.pixels.data() + found.size);
   }
+  lines = ahead;
 }
 
 // Whether a group has pixels left cannot be predicted, so there is no branch for it.

@@ -17,12 +17,12 @@ class LinesAhead {
   // Those of the rows y_first <= y < y_end. One line more may be sent for.
   LinesAhead(const ImageView& image, int y_first, int y_end)
       : next_(image.row(std::min(y_first, image.height_px - 1))),
-        end_(image.row(std::clamp(y_end, y_first, image.height_px) - 1)) {}
+        end_(std::max(next_, image.row(std::clamp(y_end, y_first, image.height_px) - 1))) {}
 
   // Sends for one; when there are no more, for the last again.
   void send() {
     hwy::Prefetch(next_);
-    next_ = std::min(next_ + kLine_bytes, std::max(next_, end_));
+    next_ = std::min(next_ + kLine_bytes, end_);
   }
 
  private:
