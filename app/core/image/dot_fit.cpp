@@ -23,13 +23,15 @@ constexpr double kMaxSemiMajor_px = 24.0;
 constexpr double kMinSemiMinor_px = 0.5;
 constexpr double kGrow_px = 2.75;  // how far outside the region blur still reaches
 constexpr int kRounds = 2;
-constexpr double kConverged = 1.0;   // what the last step took off the sum of squares, in noise
-constexpr double kNearest_px = 5.0;  // where the ring's nearest part ends
-constexpr double kLit_px = 1.6;      // as far out there is light of the dot
-constexpr double kEdge_px = 0.8;     // where the outline may be
-constexpr double kTail = 0.02;       // of the contrast: what blur puts outside of that
+constexpr double kConverged = 1.0;  // what the last step took off the sum of squares, in noise
+// Where the ground right around the dot begins and ends: things lie three pixels beside dots.
+constexpr double kBlurred_px = 2.0;
+constexpr double kNearest_px = 3.25;
+constexpr double kLit_px = 1.6;   // as far out there is light of the dot
+constexpr double kEdge_px = 0.8;  // where the outline may be
+constexpr double kTail = 0.02;    // of the contrast: what blur puts outside of that
 constexpr double kLeastTail_dn = 3.0;
-constexpr double kUnevenRing = 0.04;  // of the contrast: more is not noise alone
+constexpr double kUnevenRing = 0.025;  // of the contrast: more is not noise alone
 constexpr double kOutliersPerPixel = 0.01;
 // Lenses as they are: 0.65 px, with the pixel's own width.
 constexpr double kUsualBlur_px = 0.71;
@@ -101,19 +103,25 @@ class Fitting {
            (!is_uneven(whole) || take_own_ground(patch, rows, mask, whole));
   }
 
-  // Of the middle to the ring's plane.
+  // Of the middle to the ring's plane; negative: darker.
   double seen_contrast_dn() const {
     const Vector2d middle = region_.centroid_px - corner_;
     const double around_dn =
         plane_.at_origin + plane_.per_x * middle.x() + plane_.per_y * middle.y();
-    return std::abs(core_grey(region_.centroid_px) - around_dn);
+    return core_grey(region_.centroid_px) - around_dn;
+  }
+
+  // The dot's light adds to the ground, or takes from it: nothing else is off the other way.
+  double tail_dn() const {
+    const double contrast = seen_contrast_dn();
+    return std::copysign(std::max(kTail * std::abs(contrast), kLeastTail_dn), contrast);
   }
 
   // Something else shows in the ring.
   bool is_uneven(const GreySums& whole) const {
     const auto outliers = static_cast<double>(whole.n - sums_.ring.n);
     return outliers > kOutliersPerPixel * static_cast<double>(whole.n) ||
-           plane_.sigma > kUnevenRing * seen_contrast_dn();
+           plane_.sigma > kUnevenRing * std::abs(seen_contrast_dn());
   }
 
   bool take_own_ground(const ImageView& patch, const PatchRows& rows, const RingMask& mask,
@@ -124,12 +132,11 @@ class Fitting {
       set_spans(ellipse, region_.centroid_px - corner_, rows.count, patch.width_px, spans);
       return spans;
     };
-    find_own_ground(patch, {rows.count, spans_of(kNearest_px), rows.inner}, mask, whole, plane_);
+    find_own_ground(patch, {rows.count, spans_of(kNearest_px), spans_of(kBlurred_px)}, mask, whole,
+                    plane_);
     sums_.ring = whole;
-    drop_strangers(patch, rows,
-                   {spans_of(kLit_px), spans_of(kEdge_px),
-                    std::max(kTail * seen_contrast_dn(), kLeastTail_dn)},
-                   plane_, sums_, pixels_);
+    drop_strangers(patch, rows, {spans_of(kLit_px), spans_of(kEdge_px), tail_dn()}, plane_, sums_,
+                   pixels_);
     return fit(sums_.ring, plane_);
   }
 

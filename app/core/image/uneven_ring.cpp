@@ -1,6 +1,7 @@
 #include "app/core/image/uneven_ring.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -64,6 +65,7 @@ void find_own_ground(const ImageView& patch, const PatchRows& nearest, const Rin
     GreySums kept = whole;
     drop_outliers(patch, mask, rounded(ground, noise_limit_dn(ground)), kept);
     if (!fit(kept, ground)) return;
+    ground.sigma = std::min(ground.sigma, level.sigma_dn);
     if (kept.n == kept_before) break;
     kept_before = kept.n;
   }
@@ -72,8 +74,10 @@ void find_own_ground(const ImageView& patch, const PatchRows& nearest, const Rin
 
 void drop_strangers(const ImageView& patch, const PatchRows& rows, const DotReach& reach,
                     const Plane& plane, PatchSums& sums, DotPixels& pixels) {
-  const double limit_dn = noise_limit_dn(plane) + reach.tail_dn;
-  const PixelMap strangers = strangers_in(patch, rows, reach.lit, rounded(plane, limit_dn));
+  Plane middle = plane;  // of what noise and the dot's light make of the ground
+  middle.at_origin += 0.5 * reach.tail_dn;
+  const double limit_dn = noise_limit_dn(plane) + 0.5 * std::abs(reach.tail_dn);
+  const PixelMap strangers = strangers_in(patch, rows, reach.lit, rounded(middle, limit_dn));
   PixelMap of_dot;
   PixelMap of_ring;
   PixelMap others;

@@ -13,14 +13,14 @@ inline double noise_limit_dn(const Plane& plane) {
   return kOutlierSigmas * plane.sigma + 1.0;
 }
 
-// The plane through what is like most of the ring's nearest part (find_level): the dot lies on
-// that. `nearest`: that part, its outer ends for the ring's. `mask` and `whole` are the ring's
+// The plane through what is like most of what is nearest (find_level): the dot lies on that.
+// `nearest`: that part, between its inner and outer spans. `mask` and `whole` are the ring's
 // (sum_patch). The plane stays as it is where there are too few pixels.
 void find_own_ground(const ImageView& patch, const PatchRows& nearest, const RingMask& mask,
                      const GreySums& whole, Plane& plane);
 
-// How far a dot goes: where its light reaches, and where its edge is; what of its light may be
-// outside.
+// How far a dot goes: where its light reaches, and where its edge is; how much of its light may be
+// outside, negative of a dark dot's.
 struct DotReach {
   const Spans& lit;
   const Spans& edge;
