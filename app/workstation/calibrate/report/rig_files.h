@@ -27,9 +27,9 @@ struct RigFile {
   std::string text;
 };
 
-// rig.toml, <camera>.cahv, .cahvor or .cahvore, and joint_covariance.csv. Without a target the rig file has a table of it
-// in comments and is not complete: the first line says so. The
-// distances are those of the dots that a camera saw, with a margin.
+// rig.toml, <camera>.cahv, .cahvor or .cahvore, and joint_covariance.csv. Without a target the rig
+// file has a table of it in comments and is not complete: the first line says so. The distances are
+// those of the dots that a camera saw, with a margin.
 Result<std::vector<RigFile>> rig_files(const Calibration& calibration, const RigRequest& request);
 
 }  // namespace dottrack::calibrate

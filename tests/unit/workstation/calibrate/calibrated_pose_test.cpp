@@ -7,6 +7,8 @@
 #include <Eigen/LU>
 #include <memory>
 #include <random>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "app/config/rig_file.h"
@@ -44,8 +46,27 @@ std::unique_ptr<core::Rig> rig_of(const Calibration& calibration) {
   return std::make_unique<core::Rig>(config->rig);
 }
 
+struct CalibratedHall {
+  test::Hall hall;
+  Calibration calibration;
+};
+
 class CalibratedPose : public testing::Test {
  protected:
+  static void SetUpTestSuite() {
+    CalibrationOptions how;
+    how.kind = ModelKind::cahvor;
+    how.folds = 2;
+    test::HallOptions options;
+    for (options.seed = 1; options.seed <= kHalls; ++options.seed) {
+      test::Hall hall = test::make_hall(options);
+      auto calibration = calibrate(hall.dots, hall.views, how);
+      if (!calibration) throw std::runtime_error(calibration.error().message);
+      halls_.push_back({std::move(hall), std::move(*calibration)});
+    }
+  }
+  static void TearDownTestSuite() { halls_.clear(); }
+
   // Among the places of the hall that no dot is at.
   geometry::RigidMotion somewhere(const test::Hall& hall) {
     std::uniform_int_distribution<std::size_t> which(0, hall.unseen_m.size() - 1);
@@ -132,28 +153,24 @@ class CalibratedPose : public testing::Test {
     return error.dot(fit.pose.covariance.inverse() * error);
   }
 
+  static std::vector<CalibratedHall> halls_;
   std::mt19937 random_{17};
 };
+
+std::vector<CalibratedHall> CalibratedPose::halls_;
 
 // Places triangulated by the calibrated models, against the report's map.
 TEST_F(CalibratedPose, TheReportsMapIsTrue) {
   double sum = 0.0;  // of squared errors over the expected ones
   int places = 0;
-  test::HallOptions options;
-  CalibrationOptions how;
-  how.kind = ModelKind::cahvor;
-  how.folds = 2;
-  for (options.seed = 1; options.seed <= kHalls; ++options.seed) {
-    const test::Hall hall = test::make_hall(options);
-    const auto calibration = calibrate(hall.dots, hall.views, how);
-    ASSERT_TRUE(calibration) << calibration.error().message;
-    const ErrorMap map = error_map(*calibration, hall.dots, 0.4);
+  for (const auto& [hall, calibration] : halls_) {
+    const ErrorMap map = error_map(calibration, hall.dots, 0.4);
     for (std::size_t row = 2; row < map.rows; row += 5) {
       for (std::size_t column = 2; column < map.columns; column += 5) {
         const double expected_m = map.error_m[row * map.columns + column];
         if (map.cameras[row * map.columns + column] < 3) continue;
         const Vector3d place = map.middle(column, row);
-        const Vector3d found = triangulated(look(hall, *calibration, place), place);
+        const Vector3d found = triangulated(look(hall, calibration, place), place);
         sum += (found - place).squaredNorm() / (expected_m * expected_m);
         ++places;
       }
@@ -170,15 +187,8 @@ TEST_F(CalibratedPose, IsAsGoodAsItsCovarianceSays) {
   double sum = 0.0;
   double without = 0.0;
   int poses = 0;
-  test::HallOptions options;
-  CalibrationOptions how;
-  how.kind = ModelKind::cahvor;
-  how.folds = 2;
-  for (options.seed = 1; options.seed <= kHalls; ++options.seed) {
-    const test::Hall hall = test::make_hall(options);
-    const auto calibration = calibrate(hall.dots, hall.views, how);
-    ASSERT_TRUE(calibration) << calibration.error().message;
-    const auto rig = rig_of(*calibration);
+  for (const auto& [hall, calibration] : halls_) {
+    const auto rig = rig_of(calibration);
     ASSERT_TRUE(rig->model_correlations.known());
     core::Rig apart = *rig;
     apart.model_correlations = {};
