@@ -52,8 +52,10 @@ geometry::CameraModel moved(geometry::CameraModel model, const VectorXd& by) {
 std::vector<Vector3d> places_seen(const core::Camera& camera) {
   std::vector<Vector3d> places;
   for (int i = 0; i < kColumns * kRows; ++i) {
-    const Vector2d pixel((0.5 + i % kColumns) * camera.width_px / kColumns,
-                         (0.5 + i / kColumns) * camera.height_px / kRows);
+    const int column = i % kColumns;
+    const int row = i / kColumns;
+    const Vector2d pixel((0.5 + column) * camera.width_px / kColumns,
+                         (0.5 + row) * camera.height_px / kRows);
     geometry::Ray ray;
     if (geometry::unproject(camera.model, pixel, ray) != geometry::OpticsStatus::ok) continue;
     for (const double range_m : {camera.distance_min_m, camera.distance_max_m}) {
