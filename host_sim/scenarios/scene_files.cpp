@@ -151,7 +151,7 @@ Result<void> write_calibrated_rig(const Scene& scene, const fs::path& folder,
   }
   files.joint_covariance = fs::is_regular_file(models / kJointCovariance);
   if (files.joint_covariance) {
-    const auto done = copy_over(models / kJointCovariance, folder / kJointCovariance);
+    auto done = copy_over(models / kJointCovariance, folder / kJointCovariance);
     if (!done) return done;
   }
   return write_target_and_rig(scene, folder, files);

@@ -157,7 +157,7 @@ class Elimination {
   Alike alike(int term) const {
     Alike out;
     std::vector<double> weights;
-    const auto number = static_cast<std::size_t>(kRadial + term);
+    const std::size_t number = static_cast<std::size_t>(kRadial) + static_cast<std::size_t>(term);
     for (std::size_t i = 0; i < a_.cameras.size(); ++i) {
       if (!a_.shares(a_.cameras[i], kRadial + term)) continue;
       out.members.emplace_back(i, layout_.column[i][number]);
