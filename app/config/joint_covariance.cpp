@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -17,6 +18,18 @@ using Eigen::Index;
 
 constexpr std::string_view kHeader = "camera,row_up_to_the_diagonal";
 
+// No combination of errors has a negative variance, but for what the file rounds.
+bool is_covariance(const Eigen::MatrixXd& matrix) {
+  constexpr double kRounding = -1e-6;
+  const Eigen::VectorXd variances = matrix.diagonal();
+  if (variances.minCoeff() < 0.0) return false;
+  const Eigen::VectorXd scale =
+      variances.unaryExpr([](double v) { return v > 0.0 ? 1.0 / std::sqrt(v) : 1.0; });
+  const Eigen::MatrixXd correlation = scale.asDiagonal() * matrix * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(correlation, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues().minCoeff() > kRounding;
+}
+
 class JointParser {
  public:
   explicit JointParser(const std::string& name) : complaint_(name) {}
@@ -30,6 +43,10 @@ class JointParser {
     }
     check_camera();
     if (joint_.cameras.empty()) complaint_.add(line_, "no camera", "rows of numbers");
+    if (complaint_.empty() && !is_covariance(joint_.covariance)) {
+      complaint_.add(line_, "numbers that no errors can have together",
+                     "a covariance, as dottrack calibrate wrote it");
+    }
     if (!complaint_.empty()) return tl::unexpected<Error>(complaint_.first());
     return std::move(joint_);
   }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <random>
 
 #include "app/config/camera_file.h"
@@ -101,6 +102,18 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{kHead + "a,nan\n", "j.csv:2: a covariance is \"nan\"; expected a number"},
         Wrong{kHead + "a,1\nb,0,1\n",
               "j.csv:3: 1 rows of camera \"a\"; expected 12, 18 or 21 rows: C A H V [O R [E]]"}));
+
+TEST(JointCovariance, OfNoErrorsIsRefused) {
+  JointCovariance joint = some_joint(1.0);
+  const Index other = kNumbers + 3;
+  joint.covariance(0, other) = joint.covariance(other, 0) =
+      1.1 * std::sqrt(joint.covariance(0, 0) * joint.covariance(other, other));
+  const auto read = parse_joint_covariance(write_joint_covariance(joint), "j.csv");
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().message,
+            "j.csv:27: numbers that no errors can have together; expected a covariance, as "
+            "dottrack calibrate wrote it");
+}
 
 // Each model error is one standard deviation: what the vectors have in common is the correlation.
 TEST(JointCovariance, TellsHowTheModelsErrorsGoTogether) {

@@ -12,7 +12,7 @@
 namespace dottrack::calibrate {
 
 struct Blob {
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // of its light: image::dot_centre
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // of its rim; of its light where no fit holds
   double semi_major_px = 0.0;
   double semi_minor_px = 0.0;
   double angle_rad = 0.0;
