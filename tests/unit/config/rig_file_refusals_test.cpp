@@ -56,7 +56,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "light, loop, "
                 "recording"},
         Mistake{"InRig", "frame_rate_hz", "fps",
-                "rig.toml:3: unknown key \"fps\" in [rig]; expected one of name, frame_rate_hz, joint_covariance"},
+                "rig.toml:3: unknown key \"fps\" in [rig]; expected one of name, frame_rate_hz, "
+                "joint_covariance"},
         Mistake{"InCamera", "model", "modell",
                 "rig.toml:7: unknown key \"modell\" in [[camera]]" + kCameraKeys},
         Mistake{"TheFirstOfTwoIsNamed", "distance_m = [2.0, 14.0]\nintensity_dn",
