@@ -124,7 +124,8 @@ struct TickResult {
   // The part of its covariance that comes from the camera models and the dots' places on the
   // target: the same from tick to tick.
   Eigen::Matrix<double, 6, 6> systematic = Eigen::Matrix<double, 6, 6>::Zero();
-  FilteredPose filtered;  // at the same instant; while coasting without a pose beside it
+  double dot_sigma_m = 0.0;  // of these places, each coordinate: known beforehand or learnt
+  FilteredPose filtered;     // at the same instant; while coasting without a pose beside it
   double false_lock_probability = 1.0;  // that the lock is a wrong one, at most; with a pose only
   std::uint32_t reset_count = 0;        // acquisitions so far: a new value is a new lock
   std::uint32_t ticks_lost = 0;         // consecutive ticks without a pose

@@ -108,6 +108,7 @@ struct Tracker::Memory {
   tracking::Follower follower;
   tracking::MotionEstimator motion;
   tracking::CameraWatch camera_watch;
+  estimation::DotSpread dot_spread;
   acquisition::GatheredEvidence gathered;
   std::array<image::Regions, kMaxCameras> considered;  // in the dots' windows
   std::array<image::Regions*, kMaxCameras> considered_of{};
@@ -169,8 +170,10 @@ Reason Tracker::Memory::judge_candidate(Reason doubt) {
   const acquisition::CandidateLock& candidate = searcher.acquisition().result().candidate;
   result.has_candidate = true;
   result.candidate = candidate.pose;
+  tracking::Expectation expected(candidate.pose);
+  expected.dot_spread = dot_spread;
   const tracking::FollowResult& followed =
-      follower.follow(frames, candidate.pose, considered_of, camera_watch.moved());
+      follower.follow(frames, expected, considered_of, camera_watch.moved());
   if (followed.reason != Reason::none) {
     gathered.miss();
     return Reason::not_confirmed;
@@ -197,8 +200,10 @@ void Tracker::Memory::lock(const tracking::FollowResult& followed, double probab
 // 3.2. Where tracking fails, acquisition may find the target in the same images.
 void Tracker::Memory::follow() {
   searched_last = false;
-  const tracking::FollowResult& followed = follower.follow(
-      frames, motion.expect(result.capture_time, pose), considered_of, camera_watch.moved());
+  tracking::Expectation expected = motion.expect(result.capture_time, pose);
+  expected.dot_spread = dot_spread;
+  const tracking::FollowResult& followed =
+      follower.follow(frames, expected, considered_of, camera_watch.moved());
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     result.cameras[i].regions = static_cast<std::uint32_t>(considered[i].size());
     result.cameras[i].rejected_ellipse = followed.rejected_ellipse[i];
@@ -255,6 +260,7 @@ void Tracker::Memory::watch(const tracking::FollowResult& followed) {
       follower.follow(frames, found.candidate.pose, considered_of, camera_watch.moved());
   if (there.reason != Reason::none) return;
   result.relock = Relock::better_elsewhere;
+  dot_spread = {};  // it was that of something else
   lock(there, found.counts.false_lock_probability);
 }
 
@@ -277,6 +283,8 @@ void Tracker::Memory::accept(const tracking::FollowResult& followed) {
   result.has_pose = true;
   result.pose = followed.pose;
   result.systematic = followed.systematic;
+  result.dot_sigma_m = followed.dot_sigma_m;
+  dot_spread.take_in(followed.spread);
   keep_sign(pose.orientation, result.pose.orientation);
   filter(followed);
   result.false_lock_probability = false_lock_probability;

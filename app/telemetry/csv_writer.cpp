@@ -171,8 +171,9 @@ void write_estimation(const TickResult& result, Line& line) {
   write_filtered(result.filtered, line);
   if (result.has_pose) {
     for (int i = 0; i < 6; ++i) line << std::sqrt(result.systematic(i, i));
+    line << result.dot_sigma_m;
   } else {
-    line.skip(kAxes.size());
+    line.skip(kAxes.size() + 1);
   }
   line << result.views_used << result.views_left_out;
 }
@@ -188,7 +189,8 @@ void header_of_estimation(Line& line) {
     line << fmt::format("sigma_{}", name);
   }
   for (const std::string_view axis : kAxes) line << fmt::format("systematic_{}", axis);
-  line << "views_used"
+  line << "dot_sigma_m"
+       << "views_used"
        << "views_left_out";
 }
 

@@ -58,10 +58,6 @@ std::string can_toml(const CanModel& can) {
   return text;
 }
 
-// Surveyed exactly, but shadows and lamps light a dot unevenly: over the drives the middle of a
-// dot's light is off by this much.
-constexpr double kDotSigma_m = 0.00012;
-
 // The cameras show a new setting in the second frame after it was made.
 constexpr std::string_view kLightToml = "\n[light]\ncontrol = true\ndelay_ticks = 2\n";
 
@@ -99,8 +95,8 @@ std::string rig_toml(const Scene& scene, const ModelFiles& files) {
   }
   text += fmt::format(
       "\n[target]\nname = \"rover\"\ndots = \"target.csv\"\nupright = true\n"
-      "dot_sigma_m = {:.5f}\nmax_step_m = {:.3f}\n",
-      kDotSigma_m, dots.max_step_m);
+      "max_step_m = {:.3f}\n",
+      dots.max_step_m);
   if (scene.light_control) text += kLightToml;
   return text + can_toml(scene.can);
 }

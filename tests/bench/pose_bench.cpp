@@ -48,7 +48,8 @@ void pose_fit(benchmark::State& state) {
   const auto fit = std::make_unique<estimation::PoseFit>();
   bool right = views.size() == kRoomCameras * kDots;
   for (auto _ : state) {
-    const estimation::PoseFitStatus status = fitter.fit(as_span(views), {}, start, *fit);
+    const estimation::PoseFitStatus status =
+        fitter.fit(as_span(views), {}, start, estimation::DotSpread::none(), *fit);
     right = right && status == estimation::PoseFitStatus::ok;
   }
   const double off_m = (fit->pose.position_m - RoomScene::place_m()).norm();

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "app/core/estimation/dot_spread.h"
 #include "app/core/estimation/robust_step.h"
 #include "app/core/rig.h"
 #include "app/core/tick_result.h"
@@ -35,6 +36,8 @@ struct PoseFit {
   int coordinates = 0;                                           // of the views used: two each
   double chi2 = 0.0;                                             // of them, in their own variances
   std::array<CameraEvidence, kMaxCameras> cameras;
+  SpreadEvidence spread;     // of the dots about their places, as far as these views show it
+  double dot_sigma_m = 0.0;  // of a dot's place, each coordinate, as the covariance has it
 };
 
 enum class PoseFitStatus : std::uint8_t {
@@ -48,16 +51,23 @@ enum class PoseFitStatus : std::uint8_t {
 // views' own covariances and the models' imply, true as long as those are; where the residuals are
 // larger than chance explains, it is scaled up by as much. Cameras may see the dots at different
 // instants. The pose is that of the instant that CaptureTimes counts from.
+//
+// Dots may be off their places by the rig's dot_sigma_m, or by what ticks before have shown where
+// that is more: views are weighed so, and anew where the residuals are larger than chance explains
+// and these views show the dots to be off by more. The covariance has their evidence in it, too.
 class PoseFitter {
  public:
   explicit PoseFitter(const core::Rig& rig) : rig_(&rig) {}  // outlives the object
 
   PoseFitStatus fit(std::span<const DotObservation> views, const CaptureTimes& times,
-                    const geometry::RigidMotion& start, PoseFit& result);
+                    const geometry::RigidMotion& start, const DotSpread& spread, PoseFit& result);
 
  private:
+  double place_variance_m2(double learnt_m2) const;
+  PoseFitStatus solve(std::span<const DotObservation> views, const CaptureTimes& times,
+                      double dot_variance_m2, geometry::RigidMotion& pose);
   void report(std::span<const DotObservation> views, const geometry::RigidMotion& pose,
-              PoseFit& result);
+              const DotSpread& spread, double assumed_m2, PoseFit& result);
 
   const core::Rig* rig_;
   Eccentricities offs_px_;

@@ -72,14 +72,16 @@ void add_model_errors(const core::Camera& camera, const Vector3d& place_m, const
   }
 }
 
-Matrix2d variance_of(const DotObservation& view, const ViewRow& row) {
-  Matrix2d variance = view.covariance_px2 + row.dot_errors * row.dot_errors.transpose();
+Matrix2d variance_of(const DotObservation& view, double dot_variance_m2, const ViewRow& row) {
+  Matrix2d variance =
+      view.covariance_px2 + dot_variance_m2 * (row.by_place * row.by_place.transpose());
   for (const Vector2d& error : row.model_errors) variance += error * error.transpose();
   return variance;
 }
 
 bool make_row(const core::Rig& rig, const DotObservation& view, const Vector2d& off_px,
-              const CaptureTimes& times, const geometry::RigidMotion& pose, ViewRow& row) {
+              const CaptureTimes& times, const geometry::RigidMotion& pose, double dot_variance_m2,
+              ViewRow& row) {
   const core::Camera& camera = rig.cameras[view.camera];
   const core::TargetDot& dot = rig.target.dots[view.dot];
   const PlacedDot placed = place(dot, pose, times.after_s[view.camera], times.motion);
@@ -96,11 +98,11 @@ bool make_row(const core::Rig& rig, const DotObservation& view, const Vector2d& 
   row.residual = row.residual_px;
   row.model_errors.clear();
   add_model_errors(camera, placed.place_m, pixel, row);
-  row.dot_errors = rig.target.dot_sigma_m * by_point;
-  const Whitener whitener(variance_of(view, row));
+  row.by_place = by_point;
+  const Whitener whitener(variance_of(view, dot_variance_m2, row));
   whitener.apply(row.residual);
   whitener.apply(row.jacobian);
-  whitener.apply(row.dot_errors);
+  whitener.apply(row.by_place);
   for (Vector2d& error : row.model_errors) whitener.apply(error);
   return true;
 }
@@ -126,11 +128,12 @@ void find_eccentricities(const core::Rig& rig, std::span<const DotObservation> v
 
 void linearise(const core::Rig& rig, std::span<const DotObservation> views,
                const Eccentricities& offs_px, const CaptureTimes& times,
-               const geometry::RigidMotion& pose, ViewRows& rows) {
+               const geometry::RigidMotion& pose, double dot_variance_m2, ViewRows& rows) {
   rows.clear();
   for (std::size_t i = 0; i < views.size(); ++i) {
     rows.emplace_back();
-    if (!make_row(rig, views[i], offs_px[i], times, pose, rows.back())) rows.pop_back();
+    if (!make_row(rig, views[i], offs_px[i], times, pose, dot_variance_m2, rows.back()))
+      rows.pop_back();
   }
 }
 

@@ -26,8 +26,8 @@ struct ViewRow {
   // What each of the camera's model errors would do to the row.
   StaticVector<Eigen::Vector2d, core::kMaxModelErrors> model_errors;
 
-  // What the dot being off its place by one standard deviation would do to the row, axis by axis.
-  Eigen::Matrix<double, 2, 3> dot_errors = Eigen::Matrix<double, 2, 3>::Zero();
+  // What the dot being off its place by a metre would do to the row, axis by axis.
+  Eigen::Matrix<double, 2, 3> by_place = Eigen::Matrix<double, 2, 3>::Zero();
 
   double squared(const Vector6d& step) const { return (residual - jacobian * step).squaredNorm(); }
 };
@@ -52,6 +52,6 @@ void find_eccentricities(const core::Rig& rig, std::span<const DotObservation> v
 // The rows about a pose. Observations in whose direction the lens shows nothing are left out.
 void linearise(const core::Rig& rig, std::span<const DotObservation> views,
                const Eccentricities& offs_px, const CaptureTimes& times,
-               const geometry::RigidMotion& pose, ViewRows& rows);
+               const geometry::RigidMotion& pose, double dot_variance_m2, ViewRows& rows);
 
 }  // namespace dottrack::estimation

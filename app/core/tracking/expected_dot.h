@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "app/core/estimation/dot_spread.h"
 #include "app/core/estimation/small_step.h"
 #include "app/core/geometry/optics.h"
 #include "app/core/geometry/projected_circle.h"
@@ -32,8 +33,9 @@ struct Expectation {
   core::Pose pose;
   estimation::Twist motion;
   Time at{};
-  bool moving = false;    // `motion` and `at` mean something
-  double spread_m = 0.0;  // how far off a dot may be beyond what the gates allow for
+  bool moving = false;               // `motion` and `at` mean something
+  double spread_m = 0.0;             // how far off a dot may be beyond what the gates allow for
+  estimation::DotSpread dot_spread;  // about their places on the target
 };
 
 // How far a dot will have come a while after the instant of the expectation.

@@ -177,6 +177,8 @@ void Follower::report(core::Reason reason) {
   result_.reason = reason;
   result_.pose = locator_.fit().pose;
   result_.systematic = locator_.fit().systematic;
+  result_.spread = locator_.fit().spread;
+  result_.dot_sigma_m = locator_.fit().dot_sigma_m;
   result_.dots = locator_.dots();
   result_.dots_used = static_cast<std::uint8_t>(locator_.dots_used());
   result_.views_used = static_cast<std::uint16_t>(locator_.views_used());

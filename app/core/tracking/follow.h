@@ -20,6 +20,8 @@ struct FollowResult {
   core::Reason reason = core::Reason::too_few_dots;                // none: the target was followed
   core::Pose pose;                                                 // when followed
   estimation::Matrix6d systematic = estimation::Matrix6d::Zero();  // part of its covariance
+  estimation::SpreadEvidence spread;  // of the dots about their places on the target
+  double dot_sigma_m = 0.0;           // of these places, as the covariance has it
   std::array<core::DotState, core::kMaxDots> dots{};
   CameraSet cameras_used;
   std::uint8_t dots_used = 0;

@@ -55,7 +55,8 @@ Reason PoseLocator::locate(const SeenDots& seen, const Expectation& expected,
   triangulate(seen, expected, placed, times);
   observe(seen);
   if (dots_step_too_far(placed)) return Reason::step_too_large;
-  const PoseFitStatus status = fitter_.fit(as_span(observations_), times, start(expected), fit_);
+  const PoseFitStatus status =
+      fitter_.fit(as_span(observations_), times, start(expected), expected.dot_spread, fit_);
   if (dots_used() < static_cast<int>(core::kMinDots)) return Reason::too_few_dots;
   if (status != PoseFitStatus::ok) return Reason::degenerate_geometry;
   has_pose_ = true;

@@ -137,12 +137,13 @@ TEST_F(PaintedPoseTest, ReachesTheBoundOfTheLightAndSaysSo) {
       }
     }
     views_seen += static_cast<int>(views.size());
-    ASSERT_EQ(fitter.fit(as_span(views), {}, room_.near(truth), fit), PoseFitStatus::ok);
+    ASSERT_EQ(fitter.fit(as_span(views), {}, room_.near(truth), DotSpread::none(), fit),
+              PoseFitStatus::ok);
     const Vector6d error = test::error_of(fit.pose, truth);
     error2 += error.head<3>().squaredNorm();
     turn2 += error.tail<3>().squaredNorm();
     nees += test::nees(fit.pose, truth);
-    ASSERT_EQ(fitter.fit(as_span(bounds), {}, truth, fit), PoseFitStatus::ok);
+    ASSERT_EQ(fitter.fit(as_span(bounds), {}, truth, DotSpread::none(), fit), PoseFitStatus::ok);
     bound2 += fit.pose.covariance.diagonal().head<3>().sum();
     turn_bound2 += fit.pose.covariance.diagonal().tail<3>().sum();
   }

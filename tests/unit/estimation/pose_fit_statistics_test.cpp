@@ -24,7 +24,7 @@ class PoseFitStatistics : public testing::Test {
  protected:
   PoseFitStatus fit(const DotObservations& views, const geometry::RigidMotion& start) {
     PoseFitter fitter(room_.rig);
-    return fitter.fit(as_span(views), {}, start, fit_);
+    return fitter.fit(as_span(views), {}, start, DotSpread::none(), fit_);
   }
 
   RoomOfDots room_;
@@ -61,7 +61,7 @@ TEST_F(PoseFitStatistics, IsAsGoodAsTheCentresAllow) {
     squared += error_of(fit_.pose, truth).cwiseAbs2();
     const Eccentricities offs(views.size(), Eigen::Vector2d::Zero());
     ViewRows rows;
-    linearise(room_.rig, as_span(views), offs, {}, truth, rows);
+    linearise(room_.rig, as_span(views), offs, {}, truth, 0.0, rows);
     Matrix6d information = Matrix6d::Zero();
     for (const ViewRow& row : rows) information += row.jacobian.transpose() * row.jacobian;
     bound += information.inverse().diagonal();

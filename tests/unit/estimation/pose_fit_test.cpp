@@ -23,7 +23,7 @@ class PoseFitTest : public testing::Test {
   PoseFitStatus fit(const DotObservations& views, const geometry::RigidMotion& start,
                     const CaptureTimes& times = {}) {
     PoseFitter fitter(room_.rig);
-    return fitter.fit(as_span(views), times, start, fit_);
+    return fitter.fit(as_span(views), times, start, DotSpread::none(), fit_);
   }
 
   RoomOfDots room_;
@@ -52,13 +52,13 @@ TEST_F(PoseFitTest, TheRowsAreTheDerivativesOfTheReprojections) {
   ViewRows rows;
   ViewRows forward;
   ViewRows back;
-  linearise(room_.rig, as_span(views), offs, times, pose, rows);
+  linearise(room_.rig, as_span(views), offs, times, pose, 0.0, rows);
   ASSERT_EQ(rows.size(), 25U);
   constexpr double kStep = 1e-5;
   for (int axis = 0; axis < 6; ++axis) {
     const Vector6d step = kStep * Vector6d::Unit(axis);
-    linearise(room_.rig, as_span(views), offs, times, stepped(pose, step), forward);
-    linearise(room_.rig, as_span(views), offs, times, stepped(pose, -step), back);
+    linearise(room_.rig, as_span(views), offs, times, stepped(pose, step), 0.0, forward);
+    linearise(room_.rig, as_span(views), offs, times, stepped(pose, -step), 0.0, back);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const Eigen::Vector2d slope = (back[i].residual - forward[i].residual) / (2.0 * kStep);
       const double tolerance = 1e-6 * rows[i].jacobian.norm();
@@ -197,7 +197,7 @@ TEST_F(PoseFitTest, TheEccentricityOfTheOutlinesIsTakenOff) {
     RoomOfDots without = room_;
     for (core::TargetDot& dot : without.rig.target.dots) dot.normal.reset();
     PoseFitter fitter(without.rig);
-    ASSERT_EQ(fitter.fit(as_span(views), {}, truth, fit_), PoseFitStatus::ok);
+    ASSERT_EQ(fitter.fit(as_span(views), {}, truth, DotSpread::none(), fit_), PoseFitStatus::ok);
     plain += error_of(fit_.pose, truth).head<3>().norm();
   }
   EXPECT_GT(plain / 100, 1e-4);

@@ -45,7 +45,7 @@ class CsvFile : public testing::Test {
 TEST_F(CsvFile, EveryColumnHasANameOfItsOwn) {
   EXPECT_EQ(std::set<std::string>(names_.begin(), names_.end()).size(), names_.size());
   EXPECT_EQ(names_.size(),
-            9U + 8 + 21 + 3 * (5 + 2 * 5) + 2 * (13 + 8) + 15 + 8 + (1 + 7 + 21 + 6 + 6 + 2));
+            9U + 8 + 21 + 3 * (5 + 2 * 5) + 2 * (13 + 8) + 15 + 8 + (1 + 7 + 21 + 6 + 6 + 1 + 2));
 }
 
 TEST_F(CsvFile, ATickWithAPoseHasItsNumbers) {
@@ -63,6 +63,7 @@ TEST_F(CsvFile, ATickWithAPoseHasItsNumbers) {
   EXPECT_DOUBLE_EQ(std::stod(row.at("cov_x_x")), 1e-6);
   EXPECT_DOUBLE_EQ(std::stod(row.at("cov_y_yaw")), 12e-6);
   EXPECT_DOUBLE_EQ(std::stod(row.at("cov_yaw_yaw")), 36e-6);
+  EXPECT_EQ(row.at("dot_sigma_m"), "0.0002");
 }
 
 TEST_F(CsvFile, ADotHasItsPlaceInSpaceAndInTheImagesThatShowIt) {

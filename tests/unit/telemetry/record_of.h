@@ -17,6 +17,7 @@ inline CycleRecord record_with_pose(std::uint64_t tick) {
   result.pose.orientation = Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5);
   for (int i = 0; i < 36; ++i) result.pose.covariance(i / 6, i % 6) = 1e-6 * (i + 1);
   result.pose.rms_residual_m = 0.003;
+  result.dot_sigma_m = 0.0002;
   result.reset_count = 1;
   result.dots_used = 2;
   result.cameras_used = CameraSet(0b11);

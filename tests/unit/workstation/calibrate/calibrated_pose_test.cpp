@@ -146,7 +146,8 @@ class CalibratedPose : public testing::Test {
                                   const geometry::RigidMotion& truth) {
     estimation::PoseFitter fitter(rig);
     estimation::PoseFit fit;
-    EXPECT_EQ(fitter.fit(as_span(views), {}, truth, fit), estimation::PoseFitStatus::ok);
+    EXPECT_EQ(fitter.fit(as_span(views), {}, truth, estimation::DotSpread::none(), fit),
+              estimation::PoseFitStatus::ok);
     const Eigen::AngleAxisd turn(fit.pose.orientation * truth.rotation.conjugate());
     estimation::Vector6d error;
     error << fit.pose.position_m - truth.translation_m, turn.angle() * turn.axis();
