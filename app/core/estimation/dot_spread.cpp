@@ -14,7 +14,8 @@ using Matrix36d = Eigen::Matrix<double, 3, 6>;
 using Matrix63d = Eigen::Matrix<double, 6, 3>;
 using Matrix32d = Eigen::Matrix<double, 3, 2>;
 
-constexpr double kKept = 0.9;  // a tick
+constexpr double kKept = 0.9;        // a tick
+constexpr double kRounding = 1e-10;  // of a sum of squares: less is nothing
 
 // Of one dot's rows: what its place, and its place together with the pose, do to them.
 struct DotSums {
@@ -43,21 +44,23 @@ class Moments {
     Matrix6d common = Matrix6d::Zero();
     for (const DotSums& dot : dots_) common.noalias() += dot.with_pose * dot.with_pose.transpose();
     through_pose_.noalias() = inverse_ * common * inverse_;
-    double of_squares = through_pose_.cwiseProduct(common).sum();
+    double of_squares = 0.0;
+    double taken_by_pose = -through_pose_.cwiseProduct(common).sum();
     for (const DotSums& dot : dots_) {
       squared_pull_ += dot.pull.squaredNorm();
       trace_ += dot.information.trace();
-      of_squares += dot.information.squaredNorm() -
-                    2.0 * shared(dot.information, dot.with_pose.transpose(), dot);
+      of_squares += dot.information.squaredNorm();
+      taken_by_pose += 2.0 * shared(dot.information, dot.with_pose.transpose(), dot);
     }
     trace_ -= inverse_.cwiseProduct(common).sum();
-    information_ = std::sqrt(of_squares);
+    const double left = of_squares - taken_by_pose;
+    if (left > kRounding * of_squares) information_ = std::sqrt(left);
   }
 
   // |B^T P r|^2 beyond what independent rows of unit variance would show.
   double excess() const { return squared_pull_ - trace_; }
 
-  // trace (B^T P B)^2, its root.
+  // Root of the trace of (B^T P B)^2; nothing where the pose takes all that the views say.
   double information() const { return information_; }
 
   // Of each row's own part of the dots' variance, per square metre.
@@ -144,6 +147,7 @@ SpreadEvidence spread_evidence(std::span<const ViewRow> rows, const Flags& used,
   const double weight = moments.information();
   if (!(weight > 0.0)) return {};
   const double excess = moments.excess() + assumed_m2 * moments.own_part() - moments.model_part();
+  if (!std::isfinite(excess) || !std::isfinite(weight)) return {};
   return {excess / weight, weight};
 }
 

@@ -174,6 +174,22 @@ TEST_F(DotSpreadTest, ForgetsWhatIsOld) {
   EXPECT_EQ(spread.variance_m2(), 0.0);
 }
 
+// Six coordinates are a pose, and nothing is left over.
+TEST_F(DotSpreadTest, IsNotSeenInThreeViews) {
+  constexpr int kPoses = 200;
+  int poses = 0;
+  for (int i = 0; i < kPoses; ++i) {
+    const geometry::RigidMotion truth = room_.somewhere();
+    DotObservations views = room_.see(truth, kSigma_px, {room_.rig.cameras.data(), 1});
+    views.resize(3);
+    if (fit(views, truth, DotSpread{}) != PoseFitStatus::ok) continue;
+    ++poses;
+    EXPECT_EQ(fit_.spread.weight, 0.0) << i;
+    EXPECT_EQ(fit_.dot_sigma_m, 0.0) << i;
+  }
+  EXPECT_GT(poses, 0.9 * kPoses);
+}
+
 // The rig file's figure stands where the views show less.
 TEST_F(DotSpreadTest, IsNeverBelowWhatIsKnown) {
   room_.rig.target.dot_sigma_m = kOff_m;
