@@ -86,29 +86,10 @@ TEST_F(DotSpreadTest, WhateverWasAssumed) {
 
 // Models that are wrong shift all dots of a camera: that is not taken for the dots' doing.
 TEST_F(DotSpreadTest, WhateverTheModelsAre) {
-  constexpr double kShift_m = 0.0008;
-  constexpr double kTurn_px = 0.15;
+  const test::WrongModels wrong{.shift_m = 0.0008, .turn_px = 0.15};
   const std::vector<core::Camera> said = acquisition::test::ceiling_cameras();
-  for (core::Camera& camera : room_.rig.cameras) {
-    geometry::Cahv wrong = std::get<geometry::Cahv>(camera.model);
-    for (int axis = 0; axis < 3; ++axis) {
-      wrong.c[axis] += kShift_m;
-      camera.model_errors.push_back(wrong);
-      wrong.c[axis] -= kShift_m;
-    }
-    wrong.h += kTurn_px * wrong.a;
-    camera.model_errors.push_back(wrong);
-  }
-  std::normal_distribution<double> normal;
-  const auto cameras = [&] {
-    std::vector<core::Camera> built = said;
-    for (core::Camera& camera : built) {
-      geometry::Cahv& model = std::get<geometry::Cahv>(camera.model);
-      for (int axis = 0; axis < 3; ++axis) model.c[axis] += kShift_m * normal(room_.random);
-      model.h += kTurn_px * normal(room_.random) * model.a;
-    }
-    return built;
-  };
+  wrong.tell(room_.rig);
+  const auto cameras = [&] { return wrong.draw(said, room_.random); };
   for (const double off_m : {0.0, kOff_m}) {
     const Mean mean = mean_evidence(off_m, cameras);
     EXPECT_NEAR(mean.variance_m2, off_m * off_m, 4.0 * mean.sigma_m2) << off_m;

@@ -105,32 +105,16 @@ TEST_F(PoseFitStatistics, AWrongViewIsLeftOutAndTheDotStays) {
 // Every camera stands and looks a little otherwise than its model says, and the tracker knows by
 // how much that may be: the pose's covariance has it in, and tells it apart.
 TEST_F(PoseFitStatistics, TheModelsOwnCovarianceEntersAndDoesNotAverageOut) {
-  constexpr double kShift_m = 0.001;
-  constexpr double kTurn_px = 0.08;
+  const test::WrongModels wrong{.shift_m = 0.001, .turn_px = 0.08};
   const std::vector<core::Camera> said = acquisition::test::ceiling_cameras();
-  for (core::Camera& camera : room_.rig.cameras) {
-    geometry::Cahv wrong = std::get<geometry::Cahv>(camera.model);
-    for (int axis = 0; axis < 3; ++axis) {
-      wrong.c[axis] += kShift_m;
-      camera.model_errors.push_back(wrong);
-      wrong.c[axis] -= kShift_m;
-    }
-    wrong.h += kTurn_px * wrong.a;
-    camera.model_errors.push_back(wrong);
-  }
-  std::normal_distribution<double> normal;
+  wrong.tell(room_.rig);
   constexpr int kHalls = 4000;
   double sum = 0.0;
   double without = 0.0;
   double systematic = 0.0;
   double total = 0.0;
   for (int i = 0; i < kHalls; ++i) {
-    std::vector<core::Camera> true_cameras = said;
-    for (core::Camera& camera : true_cameras) {
-      geometry::Cahv& model = std::get<geometry::Cahv>(camera.model);
-      for (int axis = 0; axis < 3; ++axis) model.c[axis] += kShift_m * normal(room_.random);
-      model.h += kTurn_px * normal(room_.random) * model.a;
-    }
+    const std::vector<core::Camera> true_cameras = wrong.draw(said, room_.random);
     const geometry::RigidMotion truth = room_.somewhere();
     ASSERT_EQ(fit(room_.see(truth, kSigma_px, true_cameras), room_.near(truth)), PoseFitStatus::ok);
     sum += test::nees(fit_.pose, truth);

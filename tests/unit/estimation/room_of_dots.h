@@ -88,6 +88,34 @@ struct RoomOfDots {
   std::mt19937 random{11};
 };
 
+// How models may be wrong: the camera elsewhere, and turned about its vertical axis.
+struct WrongModels {
+  double shift_m = 0.0;  // standard deviation, each axis
+  double turn_px = 0.0;
+
+  void tell(core::Rig& rig) const {
+    for (core::Camera& camera : rig.cameras) {
+      geometry::Cahv wrong = std::get<geometry::Cahv>(camera.model);
+      for (int axis = 0; axis < 3; ++axis) {
+        wrong.c[axis] += shift_m;
+        camera.model_errors.push_back(wrong);
+        wrong.c[axis] -= shift_m;
+      }
+      wrong.h += turn_px * wrong.a;
+      camera.model_errors.push_back(wrong);
+    }
+  }
+  std::vector<core::Camera> draw(std::vector<core::Camera> cameras, std::mt19937& random) const {
+    std::normal_distribution<double> normal;
+    for (core::Camera& camera : cameras) {
+      geometry::Cahv& model = std::get<geometry::Cahv>(camera.model);
+      for (int axis = 0; axis < 3; ++axis) model.c[axis] += shift_m * normal(random);
+      model.h += turn_px * normal(random) * model.a;
+    }
+    return cameras;
+  }
+};
+
 inline Vector6d error_of(const core::Pose& pose, const geometry::RigidMotion& truth) {
   const Eigen::AngleAxisd turn(pose.orientation * truth.rotation.conjugate());
   Vector6d error;
