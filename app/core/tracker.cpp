@@ -98,7 +98,7 @@ struct Tracker::Memory {
   bool is_better_elsewhere();
   void lock(const tracking::FollowResult& followed, double probability_of_false);
   void accept(const tracking::FollowResult& followed);
-  void filter(const tracking::FollowResult& followed);
+  void filter();
   void refuse(Reason reason);
 
   Rig rig;
@@ -286,7 +286,7 @@ void Tracker::Memory::accept(const tracking::FollowResult& followed) {
   result.dot_sigma_m = followed.dot_sigma_m;
   dot_spread.take_in(followed.spread);
   keep_sign(pose.orientation, result.pose.orientation);
-  filter(followed);
+  filter();
   result.false_lock_probability = false_lock_probability;
   pose = result.pose;
   result.ticks_lost = 0;
@@ -301,10 +301,9 @@ void Tracker::Memory::accept(const tracking::FollowResult& followed) {
 }
 
 // A pose that the vehicle cannot have reached is a reset, never a smear.
-void Tracker::Memory::filter(const tracking::FollowResult& followed) {
-  if (!motion.take_in(trusted, result.pose, result.capture_time, followed.systematic,
-                      follower.evidence())) {
-    motion.start(result.pose, followed.systematic, result.capture_time);
+void Tracker::Memory::filter() {
+  if (!motion.take_in(trusted, follower.fit(), result.capture_time)) {
+    motion.start(follower.fit(), result.capture_time);
     result.relock = Relock::jumped;
     ++result.reset_count;
   }

@@ -177,6 +177,7 @@ void PoseFitter::report(std::span<const DotObservation> views, const geometry::R
     result.views[view] = fitted(row, used_[i]);
     if (!used_[i]) continue;
     sums.add(row);
+    result.residuals.push_back({row.camera, row.dot, row.residual});
     result.cameras[row.camera].normal.add(row, 1.0);
     result.cameras[row.camera].coordinates += 2;
     result.coordinates += 2;

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "app/core/estimation/dot_spread.h"
+#include "app/core/estimation/lasting_share.h"
 #include "app/core/estimation/robust_step.h"
 #include "app/core/rig.h"
 #include "app/core/tick_result.h"
@@ -32,9 +33,10 @@ struct PoseFit {
   // The part of its covariance that comes from the camera models (S of their files) and from the
   // dots' places on the target. It stays the same from tick to tick: no filter averages it out.
   Matrix6d systematic = Matrix6d::Zero();
-  StaticVector<FittedView, kMaxCameras * core::kMaxDots> views;  // as given
-  int coordinates = 0;                                           // of the views used: two each
-  double chi2 = 0.0;                                             // of them, in their own variances
+  StaticVector<FittedView, kMaxCameras * core::kMaxDots> views;        // as given
+  StaticVector<ViewResidual, kMaxCameras * core::kMaxDots> residuals;  // of the views used
+  int coordinates = 0;  // of the views used: two each
+  double chi2 = 0.0;    // of them, in their own variances
   std::array<CameraEvidence, kMaxCameras> cameras;
   SpreadEvidence spread;     // of the dots about their places, as far as these views show it
   double dot_sigma_m = 0.0;  // of a dot's place, each coordinate, as the covariance has it

@@ -60,10 +60,8 @@ class Follower {
     return seen.any ? &seen.sighting : nullptr;
   }
 
-  // What each camera says of the pose found in the last cycle, for a filter.
-  const std::array<estimation::CameraEvidence, kMaxCameras>& evidence() const {
-    return locator_.fit().cameras;
-  }
+  // The pose found in the last cycle, and what each camera says of it: for a filter.
+  const estimation::PoseFit& fit() const { return locator_.fit(); }
 
  private:
   void predict(const Expectation& expected, std::span<const core::CameraFrame> frames);

@@ -42,38 +42,40 @@ double reach_m(const core::Target& target) {
 
 }  // namespace
 
-void MotionEstimator::start(const core::Pose& pose, const estimation::Matrix6d& systematic,
-                            Time captured) {
-  core::Pose random = pose;
-  random.covariance -= systematic;
-  filter_.start(random, captured);
-  systematic_ = systematic;
-  found_ = captured;
+void MotionEstimator::start(const estimation::PoseFit& found, Time at) {
+  core::Pose random = found.pose;
+  random.covariance -= found.systematic;
+  filter_.start(random, at);
+  systematic_ = found.systematic;
+  found_ = at;
   poses_ = 1;
 }
 
-bool MotionEstimator::take_in(std::span<const core::CameraFrame> frames, const core::Pose& found,
-                              Time at, const estimation::Matrix6d& systematic,
-                              std::span<const estimation::CameraEvidence> evidence) {
+bool MotionEstimator::take_in(std::span<const core::CameraFrame> frames,
+                              const estimation::PoseFit& found, Time at) {
+  lasting_.take_in(as_span(found.residuals));
   if (!running() || at <= found_) {
-    start(found, systematic, at);
+    start(found, at);
     return true;
   }
+  const double lasting = lasting_.value();
   const estimation::Twist motion = twist_of(filter_.at(at));
   StaticVector<estimation::PoseInformation, kMaxCameras> cameras;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (evidence[i].coordinates == 0) continue;
+    estimation::CameraEvidence camera = found.cameras[i];
+    if (camera.coordinates == 0) continue;
+    camera.normal.scale(1.0 / (1.0 - lasting));
     const geometry::RigidMotion pose =
-        carried(found, motion, to_seconds(frames[i].mid_exposure - at));
+        carried(found.pose, motion, to_seconds(frames[i].mid_exposure - at));
     cameras.push_back({.captured = frames[i].mid_exposure,
                        .position_m = pose.translation_m,
                        .orientation = pose.rotation,
-                       .information = evidence[i].normal.information,
-                       .gradient = evidence[i].normal.gradient,
-                       .coordinates = evidence[i].coordinates});
+                       .information = camera.normal.information,
+                       .gradient = camera.normal.gradient,
+                       .coordinates = camera.coordinates});
   }
   if (filter_.update(as_span(cameras)).jumped) return false;
-  systematic_ = systematic;
+  systematic_ = found.systematic + lasting * (found.pose.covariance - found.systematic);
   found_ = at;
   ++poses_;
   return true;
