@@ -12,6 +12,7 @@
 #include "app/workstation/camera_command.h"
 #include "app/workstation/dbc_command.h"
 #include "app/workstation/exit_status.h"
+#include "app/workstation/consistency_command.h"
 #include "app/workstation/experiments_command.h"
 #include "app/workstation/light_command.h"
 #include "app/workstation/monitor_command.h"
@@ -61,6 +62,7 @@ void add_commands(CLI::App& app, int& exit_status) {
   dottrack::workstation::add_sim_command(app, exit_status);
   dottrack::workstation::add_acquisitions_command(app, exit_status);
   dottrack::workstation::add_experiments_command(app, exit_status);
+  dottrack::workstation::add_consistency_command(app, exit_status);
   dottrack::workstation::add_light_command(app, exit_status);
   dottrack::workstation::add_calibrate_command(app, exit_status);
   dottrack::workstation::add_camera_command(app, exit_status);

@@ -3,7 +3,7 @@ dottrack_library(workstation_figures
   SOURCES light_tally.cpp straightness.cpp svg_chart.cpp truth_record.cpp xml_text.cpp
   USES dottrack::workstation_outputs)
 dottrack_library(workstation_sim
-  SOURCES experiment_figures.cpp experiment_table.cpp experiments.cpp interrupt.cpp light_figures.cpp progress.cpp
+  SOURCES consistency.cpp experiment_figures.cpp experiment_table.cpp experiments.cpp interrupt.cpp light_figures.cpp progress.cpp
           sim_plots.cpp sim_run.cpp trial.cpp trial_file.cpp
           trial_summary.cpp trials.cpp
   USES dottrack::workstation_figures dottrack::workstation_replay dottrack::host_sim_scenarios

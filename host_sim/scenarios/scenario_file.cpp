@@ -92,7 +92,8 @@ class ScenarioReader {
     Grounds grounds = read_hall(complaint_, root.table("hall"), scene_.seed);
     scene_.length_m = grounds.length_m;
     scene_.width_m = grounds.width_m;
-    const VehicleChoice vehicle = read_vehicle(complaint_, root.table("vehicle"));
+    const VehicleChoice vehicle =
+        read_vehicle(complaint_, root.table("vehicle"), overrides_.layout_seed);
     scene_.target = vehicle.target;
     const Drive drive = read_drive(root, vehicle.kind, grounds);
     scene_.world.light = read_light(complaint_, root.table("light"), root.tables("light_change"));

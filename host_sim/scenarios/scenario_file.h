@@ -13,8 +13,9 @@ namespace dottrack::host_sim {
 
 // What a command line may say instead of the file.
 struct ScenarioOverrides {
-  std::optional<std::uint64_t> seed;
-  std::optional<std::uint64_t> ticks;
+  std::optional<std::uint64_t> seed = std::nullopt;
+  std::optional<std::uint64_t> ticks = std::nullopt;
+  std::optional<std::uint64_t> layout_seed = std::nullopt;  // of [vehicle]
 };
 
 inline constexpr std::uint64_t kMaxTicks = 1'000'000;  // as many as the frames' names can count

@@ -82,15 +82,19 @@ void check_turns(TableReader& reader, std::string_view key, const WayPoints& poi
   }
 }
 
-VehicleChoice read_vehicle(Complaint& complaint, const toml::table* table) {
+VehicleChoice read_vehicle(Complaint& complaint, const toml::table* table,
+                           std::optional<std::uint64_t> layout_seed) {
+  static const toml::table kNothing;
   VehicleChoice choice;
   choice.target = demo_layout();
-  if (table == nullptr) return choice;
-  TableReader reader(complaint, *table, "[vehicle]", {"kind", "dots", "layout_seed"});
+  TableReader reader(complaint, table != nullptr ? *table : kNothing, "[vehicle]",
+                     {"kind", "dots", "layout_seed"});
   choice.kind = static_cast<VehicleKind>(reader.choice("kind", {"rover", "hanging", "none"}));
   const int dots = reader.integer("dots", 5, kDots);
-  const auto layout_seed = static_cast<std::uint64_t>(reader.whole_number("layout_seed", 1, kSeed));
-  if (dots != 5 || reader.has("layout_seed")) choice.target = random_layout(dots, layout_seed);
+  const auto in_file = static_cast<std::uint64_t>(reader.whole_number("layout_seed", 1, kSeed));
+  if (dots != 5 || layout_seed || reader.has("layout_seed")) {
+    choice.target = random_layout(dots, layout_seed.value_or(in_file));
+  }
   return choice;
 }
 

@@ -54,7 +54,8 @@ struct VehicleChoice {
   VehicleKind kind = VehicleKind::rover;
   TargetLayout target;
 };
-VehicleChoice read_vehicle(Complaint& complaint, const toml::table* table);
+VehicleChoice read_vehicle(Complaint& complaint, const toml::table* table,
+                           std::optional<std::uint64_t> layout_seed);
 
 struct Drive {
   std::optional<Ramp> ramp;
