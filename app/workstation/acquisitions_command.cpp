@@ -10,16 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "app/workstation/complain.h"
 #include "app/workstation/exit_status.h"
 #include "app/workstation/trial_summary.h"
 
 namespace dottrack::workstation {
 namespace {
-
-int complain(const std::string& message) {
-  fmt::print(stderr, "dottrack: {}\n", message);
-  return kWrongUse;
-}
 
 int run(const std::vector<std::string>& files) {
   std::vector<Trial> all;

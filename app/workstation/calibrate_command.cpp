@@ -14,6 +14,7 @@
 #include "app/workstation/calibrate/figures.h"
 #include "app/workstation/calibrate/from_pictures.h"
 #include "app/workstation/calibrate/repair/repair_options.h"
+#include "app/workstation/complain.h"
 #include "app/workstation/exit_status.h"
 #include "app/workstation/interrupt.h"
 #include "app/workstation/progress.h"
@@ -42,11 +43,6 @@ Result<calibrate::PictureCalibration> measure(calibrate::PictureRequest request)
     return !Interrupt::wanted();
   };
   return calibrate::calibrate_pictures(request);
-}
-
-int complain(const std::string& message, int status) {
-  fmt::print(stderr, "dottrack: {}\n", message);
-  return status;
 }
 
 int run(Command command) {

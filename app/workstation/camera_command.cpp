@@ -13,6 +13,7 @@
 #include <string>
 
 #include "app/config/camera_file.h"
+#include "app/workstation/complain.h"
 #include "app/workstation/exit_status.h"
 
 namespace dottrack::workstation {
@@ -151,18 +152,13 @@ namespace {
 
 using LineFilter = Result<void> (*)(const CameraModel&, std::istream&, std::ostream&);
 
-int complain(const Error& error) {
-  fmt::print(stderr, "dottrack: {}\n", error.message);
-  return kWrongUse;
-}
-
 int run(const std::string& path, LineFilter lines) {
   const Result<config::CameraFile> file = config::read_camera_file(path);
-  if (!file) return complain(file.error());
+  if (!file) return complain(file.error().message);
   std::ios::sync_with_stdio(false);  // so that std::cin reads in blocks
   std::cin.tie(nullptr);
   const Result<void> result = lines(file->model, std::cin, std::cout);
-  if (!result) return complain(result.error());
+  if (!result) return complain(result.error().message);
   if (std::cout) return kDone;
   fmt::print(stderr, "dottrack: standard output cannot be written\n");
   return kFailed;

@@ -1,26 +1,20 @@
 #include "app/workstation/consistency_command.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 
 #include "app/telemetry/output_file.h"
+#include "app/workstation/complain.h"
 #include "app/workstation/consistency.h"
 #include "app/workstation/exit_status.h"
-#include "app/workstation/interrupt.h"
+#include "app/workstation/status_line.h"
 
 namespace dottrack::workstation {
 namespace {
 
 constexpr std::uint64_t kMostTicks = 1'000'000;
-
-int complain(const std::string& message, int status) {
-  fmt::print(stderr, "dottrack: {}\n", message);
-  return status;
-}
 
 bool any_without_poses(const std::vector<HallRun>& runs) {
   return std::any_of(runs.begin(), runs.end(),
@@ -31,14 +25,10 @@ int run(ConsistencyOptions options, std::uint64_t most_ticks) {
   for (ConsistencyOptions::Part& part : options.parts) {
     part.ticks = std::min(part.ticks, most_ticks);
   }
-  const Interrupt interrupt;
-  const bool on_terminal = isatty(STDERR_FILENO) != 0;
-  options.go_on = [&](const std::string& what) {
-    if (on_terminal) fmt::print(stderr, "\r\x1b[K{}", what);
-    return !Interrupt::wanted();
-  };
+  const StatusLine line;
+  options.go_on = [&](const std::string& what) { return line.show(what); };
   const auto runs = run_halls(options);
-  if (on_terminal) fmt::print(stderr, "\r\x1b[K");
+  line.clear();
   if (!runs) return complain(runs.error().message, Interrupt::wanted() ? kFailed : kWrongUse);
   const std::string table = consistency_table(*runs);
   fmt::print("{}", table);

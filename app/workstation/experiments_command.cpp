@@ -1,24 +1,18 @@
 #include "app/workstation/experiments_command.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 
 #include "app/telemetry/output_file.h"
+#include "app/workstation/complain.h"
 #include "app/workstation/exit_status.h"
 #include "app/workstation/experiments.h"
-#include "app/workstation/interrupt.h"
+#include "app/workstation/status_line.h"
 
 namespace dottrack::workstation {
 namespace {
-
-int complain(const std::string& message, int status) {
-  fmt::print(stderr, "dottrack: {}\n", message);
-  return status;
-}
 
 bool any_wrong(const Experiments& e) {
   const auto wrong_drive = [](const DriveFigures& d) { return d.wrong > 0; };
@@ -29,14 +23,10 @@ bool any_wrong(const Experiments& e) {
 }
 
 int run(ExperimentOptions options) {
-  const Interrupt interrupt;
-  const bool on_terminal = isatty(STDERR_FILENO) != 0;
-  options.go_on = [&](const std::string& what) {
-    if (on_terminal) fmt::print(stderr, "\r\x1b[K{}", what);
-    return !Interrupt::wanted();
-  };
+  const StatusLine line;
+  options.go_on = [&](const std::string& what) { return line.show(what); };
   const auto experiments = run_experiments(options);
-  if (on_terminal) fmt::print(stderr, "\r\x1b[K");
+  line.clear();
   if (!experiments) {
     return complain(experiments.error().message, Interrupt::wanted() ? kFailed : kWrongUse);
   }

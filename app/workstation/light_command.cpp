@@ -1,37 +1,27 @@
 #include "app/workstation/light_command.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cstdio>
 #include <memory>
 
 #include "app/telemetry/output_file.h"
+#include "app/workstation/complain.h"
 #include "app/workstation/exit_status.h"
-#include "app/workstation/interrupt.h"
 #include "app/workstation/light_figures.h"
 #include "app/workstation/loop_files.h"
+#include "app/workstation/status_line.h"
 
 namespace dottrack::workstation {
 namespace {
-
-int complain(const std::string& message, int status) {
-  fmt::print(stderr, "dottrack: {}\n", message);
-  return status;
-}
 
 int run(LightRunOptions options) {
   if (const auto made = make_folder(options.out); !made) {
     return complain(made.error().message, kWrongUse);
   }
-  const Interrupt interrupt;
-  const bool on_terminal = isatty(STDERR_FILENO) != 0;
-  options.go_on = [&](const std::string& what) {
-    if (on_terminal) fmt::print(stderr, "\r\x1b[K{}", what);
-    return !Interrupt::wanted();
-  };
+  const StatusLine line;
+  options.go_on = [&](const std::string& what) { return line.show(what); };
   const auto comparisons = compare_light(options);
-  if (on_terminal) fmt::print(stderr, "\r\x1b[K");
+  line.clear();
   if (!comparisons) {
     return complain(comparisons.error().message, Interrupt::wanted() ? kFailed : kWrongUse);
   }

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "app/workstation/addressing_options.h"
+#include "app/workstation/complain.h"
 #include "app/workstation/dbc/dottrack_dbc.h"
 #include "app/workstation/exit_status.h"
 #include "app/workstation/interrupt.h"
@@ -52,11 +53,6 @@ struct MonitorOptions {
 };
 
 using Writers = std::vector<std::unique_ptr<monitor::Writer>>;
-
-int complain(const std::string& line, int status = kWrongUse) {
-  fmt::print(stderr, "dottrack: {}\n", line);
-  return status;
-}
 
 bool shows_table(const MonitorOptions& options) {
   const bool as_it_comes = options.log.empty() || options.log == "-";

@@ -4,7 +4,7 @@ dottrack_library(workstation_figures
   USES dottrack::workstation_outputs)
 dottrack_library(workstation_sim
   SOURCES consistency.cpp experiment_figures.cpp experiment_table.cpp experiments.cpp interrupt.cpp light_figures.cpp progress.cpp
-          sim_plots.cpp sim_run.cpp trial.cpp trial_file.cpp
+          sim_plots.cpp sim_run.cpp status_line.cpp trial.cpp trial_file.cpp
           trial_summary.cpp trials.cpp
   USES dottrack::workstation_figures dottrack::workstation_replay dottrack::host_sim_scenarios
        dottrack::host_sim_hal dottrack::workstation_calibrate)

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "app/workstation/complain.h"
 #include "app/workstation/exit_status.h"
 #include "app/workstation/interrupt.h"
 #include "app/workstation/loop_files.h"
@@ -48,11 +49,6 @@ struct SimCommand {
 
 void print_text(const std::string& text) {
   fmt::print("{}", text);
-}
-
-int complain(const std::string& message, int status) {
-  fmt::print(stderr, "dottrack: {}\n", message);
-  return status;
 }
 
 Result<host_sim::Scene> load(const SimCommand& command) {

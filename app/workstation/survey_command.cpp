@@ -10,6 +10,7 @@
 
 #include "app/config/rig_file.h"
 #include "app/telemetry/output_file.h"
+#include "app/workstation/complain.h"
 #include "app/workstation/exit_status.h"
 #include "app/workstation/survey/target_bundle.h"
 
@@ -23,11 +24,6 @@ struct Survey {
   fs::path rig;
   fs::path out;
 };
-
-int complain(const std::string& message) {
-  fmt::print(stderr, "dottrack: {}\n", message);
-  return kWrongUse;
-}
 
 std::string target_csv(const core::Target& given, const LearnedTarget& learned) {
   std::string text = "dot,x_m,y_m,z_m,diameter_m,nx,ny,nz\n";

@@ -13,6 +13,7 @@
 #include "app/config/target_admission.h"
 #include "app/config/target_file.h"
 #include "app/telemetry/output_file.h"
+#include "app/workstation/complain.h"
 #include "app/workstation/exit_status.h"
 #include "app/workstation/target/target_drawing.h"
 #include "app/workstation/target/target_table.h"
@@ -34,11 +35,6 @@ struct Design {
   double sigma_mm = 2.0;
   bool bright = true;
 };
-
-int complain(const std::string& message) {
-  fmt::print(stderr, "dottrack: {}\n", message);
-  return kWrongUse;
-}
 
 // The target that is judged may be that of the rig, so the rig's own are not.
 Result<double> sigma_of(const Check& check) {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "app/workstation/addressing_options.h"
+#include "app/workstation/complain.h"
 #include "app/workstation/exit_status.h"
 #include "app/workstation/monitor/command_exchange.h"
 #include "app/workstation/monitor/live_bus.h"
@@ -33,11 +34,6 @@ struct UnitCommandOptions {
   std::optional<unsigned> target;
   protocol::Addressing addressing;
 };
-
-int complain(const std::string& line, int status) {
-  fmt::print(stderr, "dottrack: {}\n", line);
-  return status;
-}
 
 Result<void> check(const UnitCommandOptions& options) {
   if (options.target.has_value() != (options.action == "set-target")) {
