@@ -37,14 +37,14 @@ void Searcher::identify(std::span<const CameraFrame> frames) {
 
 bool Searcher::look(std::span<const CameraFrame> frames, Time captured) {
   Memory& m = *memory_;
+  acquisition::WorkBudget budget(kWorkUnits);
   if (!busy_) {
     captured_ = captured;
     identify(frames);
     std::array<const image::Regions*, kMaxCameras> regions{};
     for (std::size_t i = 0; i < rig_->cameras.size(); ++i) regions[i] = &m.regions[i];
-    m.acquisition.start(regions);
+    m.acquisition.start(regions, budget);
   }
-  acquisition::WorkBudget budget(kWorkUnits);
   busy_ = !m.acquisition.go_on(budget);
   if (busy_ && m.acquisition.result().counts.ticks >= kMaxTicks) {
     m.acquisition.stop();

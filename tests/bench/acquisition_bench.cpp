@@ -32,7 +32,7 @@ void match_and_select(benchmark::State& state) {
   bool right = true;
   for (auto _ : state) {
     acquisition::WorkBudget budget(kUnlimited);
-    acquisition.start(room.regions());
+    acquisition.start(room.regions(), budget);
     right = acquisition.go_on(budget) && is_right(acquisition.result(), rig) && right;
   }
   if (!right) state.SkipWithError("the target was not found");

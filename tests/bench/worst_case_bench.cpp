@@ -17,8 +17,8 @@ void worst_case(benchmark::State& state) {
   const auto acquisition = std::make_unique<acquisition::Acquisition>(scene->rig, scene->optics);
   std::uint64_t most = 0;
   for (auto _ : state) {
-    if (!acquisition->busy()) acquisition->start(scene->regions());
     acquisition::WorkBudget budget(core::Searcher::kWorkUnits);
+    if (!acquisition->busy()) acquisition->start(scene->regions(), budget);
     acquisition->go_on(budget);
     most = std::max(most, budget.spent());
   }

@@ -24,9 +24,12 @@ constexpr std::size_t kLayersOfLastResort = 3;
 // clearly less probable to be false.
 constexpr double kClearlyLess = 0.5;
 
-// Work to weigh one dot of a candidate, by finalist: each may be clutter near it.
+// Work to make a line of sight of a region, and to weigh one dot of a candidate, by finalist: each
+// may be clutter near it.
+constexpr std::uint64_t kUnitsToSight = 3;
 constexpr std::uint64_t kUnitsToWeigh = 1;
-// At the most it fits into a tick's budget of 200,000.
+// At the most both fit into a tick's budget of 200,000.
+static_assert(kUnitsToSight * core::kMaxRegions * kMaxCameras <= 50'000);
 static_assert(kUnitsToWeigh * core::kMaxFinalists * core::kMaxDots <= 150'000);
 
 double sum_of_squared_edge_errors(const TargetShape& shape, std::span<const Witness> witnesses) {
@@ -108,10 +111,11 @@ std::size_t Acquisition::fewest_dots() const {
   return std::min(shape_.dots, last_resort_ ? core::kMinDots : core::kMinPartialDots);
 }
 
-void Acquisition::start(std::span<const image::Regions* const> regions) {
+void Acquisition::start(std::span<const image::Regions* const> regions, WorkBudget& budget) {
   const std::span<CameraView> views(memory_->views.data(), rig_->cameras.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
     take_sightings(rig_->target, optics_[i], regions[i], views[i]);
+    if (regions[i] != nullptr) budget.spend(kUnitsToSight * regions[i]->size());
   }
   const auto seeing = std::count_if(views.begin(), views.end(),
                                     [](const CameraView& v) { return !v.sightings.empty(); });

@@ -38,8 +38,8 @@ class Acquisition {
   Acquisition& operator=(const Acquisition&) = delete;
 
   // Begins a search. regions[i]: what identify found in camera i; null or empty for a camera
-  // without an image. Nothing of them is needed afterwards.
-  void start(std::span<const image::Regions* const> regions);
+  // without an image. Nothing of them is needed afterwards. Spends of the budget without asking.
+  void start(std::span<const image::Regions* const> regions, WorkBudget& budget);
 
   // How many of camera i's regions are lines of sight of this search.
   std::size_t sightings(std::size_t camera) const;

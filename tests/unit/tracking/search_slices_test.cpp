@@ -32,14 +32,14 @@ class SearchSlices : public testing::Test {
   // The result, and in how many slices.
   AcquisitionResult search(std::uint64_t units, int& slices) {
     const auto acquisition = std::make_unique<Acquisition>(room_.rig, optics_);
-    acquisition->start(regions_of_);
-    for (slices = 1;; ++slices) {
-      WorkBudget budget(units);
-      if (acquisition->go_on(budget)) break;
+    WorkBudget budget(units);
+    acquisition->start(regions_of_, budget);
+    for (slices = 1; !acquisition->go_on(budget); ++slices) {
       if (slices > 10'000'000) {
         ADD_FAILURE() << "no end";
         break;
       }
+      budget = WorkBudget(units);
     }
     EXPECT_FALSE(acquisition->busy());
     return acquisition->result();
@@ -67,6 +67,20 @@ TEST_F(SearchSlices, ComeToTheSame) {
     EXPECT_EQ(cut.counts.finalists, whole.counts.finalists);
     EXPECT_EQ(cut.counts.ticks, static_cast<std::uint32_t>(slices));
   }
+}
+
+TEST_F(SearchSlices, BeginWithWhatTheRegionsCost) {
+  std::uint64_t regions = 0;
+  for (const image::Regions* of_camera : regions_of_) regions += of_camera ? of_camera->size() : 0;
+  const auto acquisition = std::make_unique<Acquisition>(room_.rig, optics_);
+  WorkBudget budget(1ULL << 60U);
+  acquisition->start(regions_of_, budget);
+  EXPECT_GT(regions, 100U);
+  EXPECT_GE(budget.spent(), regions);
+  WorkBudget untouched(1);
+  regions_of_.fill(nullptr);
+  acquisition->start(regions_of_, untouched);
+  EXPECT_EQ(untouched.spent(), 0U);
 }
 
 }  // namespace

@@ -22,13 +22,15 @@ TEST(WorstCase, EveryTickStaysWithinItsBudget) {
     ASSERT_GE(regions->size(), core::kMaxRegions * 9 / 10);
   }
   const auto acquisition = std::make_unique<Acquisition>(scene->rig, scene->optics);
-  acquisition->start(scene->regions());
+  WorkBudget budget(kUnits);
+  acquisition->start(scene->regions(), budget);
+  EXPECT_GT(budget.spent(), 0U);
   int full_ticks = 0;
   for (int tick = 0; tick < 60 && acquisition->busy(); ++tick) {
-    WorkBudget budget(kUnits);
     acquisition->go_on(budget);
     ASSERT_LE(budget.spent(), kUnits + kOvershoot) << tick;
     full_ticks += acquisition->busy() ? 1 : 0;
+    budget = WorkBudget(kUnits);
   }
   EXPECT_GE(full_ticks, 10);  // it was work enough to need its bound
   EXPECT_GE(acquisition->result().counts.finalists, core::kMaxFinalists / 10);
