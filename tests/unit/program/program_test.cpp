@@ -47,7 +47,8 @@ void expect_wrong_use(const std::string& arguments, const std::string& line) {
 
 TEST(Program, AnswersWrongUseWithOneLineAndStatus2) {
   const std::string commands =
-      "; expected one of replay, sim, acquisitions, experiments, consistency, light, calibrate, camera, survey, "
+      "; expected one of replay, sim, acquisitions, experiments, consistency, light, calibrate, "
+      "camera, survey, "
       "target, "
       "monitor, dbc, "
       "command, "
